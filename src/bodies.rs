@@ -1,0 +1,139 @@
+//! Bodies: the state of all spheres, a column for each component.
+
+use crate::column::Column;
+use crate::mat3::Mat3;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The three components of a vector, a column each.
+pub type Columns3<T> = [Column<T>; 3];
+
+/// A figure of each body, stored only where the bodies differ in it.
+#[derive(Clone, Debug)]
+pub enum PerBody<T: Real> {
+    /// All bodies have this value.
+    Same(T),
+    /// Body `i` has element `i`.
+    Each(Column<T>),
+}
+
+impl<T: Real> PerBody<T> {
+    /// The values of all bodies, stored once if they are equal. `padding`
+    /// stands behind the last one.
+    #[must_use]
+    pub fn from_values(values: impl ExactSizeIterator<Item = T> + Clone, padding: T) -> Self {
+        let mut others = values.clone();
+        match others.next() {
+            None => Self::Same(padding),
+            Some(first) if others.all(|value| value == first) => Self::Same(first),
+            Some(_) => Self::Each(Column::from_values(values, padding)),
+        }
+    }
+
+    /// The value of body `index`.
+    ///
+    /// # Panics
+    /// If the values differ and there are no more than `index`.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(&self, index: usize) -> T {
+        match self {
+            Self::Same(value) => *value,
+            Self::Each(column) => column[index],
+        }
+    }
+
+    /// The same figure passed through a function.
+    #[must_use]
+    pub fn map(&self, function: impl Fn(T) -> T) -> Self {
+        match self {
+            Self::Same(value) => Self::Same(function(*value)),
+            Self::Each(column) => Self::Each(Column::from_values(
+                column.iter().map(|value| function(*value)),
+                function(T::ONE),
+            )),
+        }
+    }
+
+    /// The greatest value of `len` bodies.
+    #[must_use]
+    pub fn greatest(&self) -> T {
+        match self {
+            Self::Same(value) => *value,
+            Self::Each(column) => column.iter().fold(T::ZERO, |most, &value| value.greater(most)),
+        }
+    }
+}
+
+/// All spheres of a scene, in struct-of-arrays form, in the order of the scene
+/// file.
+///
+/// Units are the user's own as long as they agree (SI, or σ = m = kT = 1).
+/// Vectors are in the world frame. Every column has [`len`](Bodies::len)
+/// elements.
+#[derive(Clone, Debug)]
+pub struct Bodies<T: Real> {
+    /// Centres, length.
+    pub position: Columns3<T>,
+    /// Velocities of the centres, length per time.
+    pub velocity: Columns3<T>,
+    /// Angular velocities, rad per time.
+    pub spin: Columns3<T>,
+    /// Body axes to world axes, nine columns in row-major order. `None` while
+    /// every body's axes are the world's.
+    pub orientation: Option<Box<[Column<T>; 9]>>,
+    /// Radii, length.
+    pub radius: PerBody<T>,
+    /// Masses.
+    pub mass: PerBody<T>,
+    /// Moments of inertia about the centre, `I = q m r²`.
+    pub inertia: PerBody<T>,
+}
+
+impl<T: Real> Bodies<T> {
+    /// How many bodies there are.
+    #[inline]
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.position[0].len()
+    }
+
+    /// Whether there is no body.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Centre of body `index`.
+    #[must_use]
+    pub fn position_of(&self, index: usize) -> Vec3<T> {
+        at(&self.position, index)
+    }
+
+    /// Velocity of body `index`.
+    #[must_use]
+    pub fn velocity_of(&self, index: usize) -> Vec3<T> {
+        at(&self.velocity, index)
+    }
+
+    /// Angular velocity of body `index`.
+    #[must_use]
+    pub fn spin_of(&self, index: usize) -> Vec3<T> {
+        at(&self.spin, index)
+    }
+
+    /// Orientation of body `index`: body axes to world axes.
+    #[must_use]
+    pub fn orientation_of(&self, index: usize) -> Mat3<T> {
+        match &self.orientation {
+            None => Mat3::IDENTITY,
+            Some(rows) => Mat3::from_rows(core::array::from_fn(|k| rows[k][index])),
+        }
+    }
+}
+
+/// Element `index` of three columns.
+#[inline(always)]
+pub(crate) fn at<T: Real>(columns: &Columns3<T>, index: usize) -> Vec3<T> {
+    Vec3::new(columns[0][index], columns[1][index], columns[2][index])
+}

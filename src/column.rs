@@ -1,0 +1,89 @@
+//! Column: one component of all bodies, aligned and padded for the lanes.
+
+use core::fmt;
+use core::ops::{Deref, DerefMut};
+
+use crate::real::Real;
+
+/// `len` reals, aligned to 64 bytes and padded to a multiple of
+/// [`WIDEST`](Column::WIDEST), so that a sweep in any lane width needs no tail.
+///
+/// It dereferences to the `len` reals; the padding holds the value that the
+/// column was made with and is only seen through [`padded`](Column::padded).
+#[derive(Clone)]
+pub struct Column<T: Real> {
+    blocks: Vec<T::Block>,
+    len: usize,
+}
+
+impl<T: Real> Column<T> {
+    /// The widest lane, to a multiple of which a column is padded.
+    pub const WIDEST: usize = 16;
+
+    /// A column of `len` equal values, the padding included.
+    ///
+    /// ```
+    /// use carom::column::Column;
+    /// let column = Column::new(10, 1.5_f32);
+    /// assert_eq!(column.len(), 10);
+    /// assert_eq!(column.padded().len(), 16);
+    /// ```
+    #[must_use]
+    pub fn new(len: usize, value: T) -> Self {
+        let block_len = T::flat(&[T::block(value)]).len();
+        let blocks = len.next_multiple_of(Self::WIDEST).div_ceil(block_len);
+        Self { blocks: vec![T::block(value); blocks], len }
+    }
+
+    /// A column of the given values, padded with `padding`.
+    #[must_use]
+    pub fn from_values(values: impl ExactSizeIterator<Item = T>, padding: T) -> Self {
+        let mut column = Self::new(values.len(), padding);
+        for (place, value) in column.iter_mut().zip(values) {
+            *place = value;
+        }
+        column
+    }
+
+    /// The values with the padding behind them.
+    #[inline]
+    #[must_use]
+    pub fn padded(&self) -> &[T] {
+        T::flat(&self.blocks)
+    }
+
+    /// The values with the padding behind them.
+    #[inline]
+    #[must_use]
+    pub fn padded_mut(&mut self) -> &mut [T] {
+        T::flat_mut(&mut self.blocks)
+    }
+
+    /// The bytes that the column holds in memory.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.blocks.as_slice())
+    }
+}
+
+impl<T: Real> Deref for Column<T> {
+    type Target = [T];
+
+    #[inline]
+    fn deref(&self) -> &[T] {
+        &T::flat(&self.blocks)[..self.len]
+    }
+}
+
+impl<T: Real> DerefMut for Column<T> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut T::flat_mut(&mut self.blocks)[..self.len]
+    }
+}
+
+impl<T: Real> fmt::Debug for Column<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.iter()).finish()
+    }
+}

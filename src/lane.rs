@@ -1,0 +1,207 @@
+//! Lanes: `N` reals that go through the same formula at once.
+//!
+//! A formula of this crate is one function, generic over [`Lane`]. With a lane
+//! type of one real (`f32`, `f64`) it is the scalar reference path; with a pack
+//! of `wide` it works on 2 to 16 bodies at a time. Every operation of the trait
+//! is exact or correctly rounded, and nothing fuses or reorders, so a pack
+//! gives in each lane the bits that the scalar path gives.
+//!
+//! ```
+//! use carom::lane::Lane;
+//! use wide::f64x4;
+//!
+//! /// A formula, written once.
+//! fn speed_squared<L: Lane>(x: L, y: L) -> L {
+//!     x * x + y * y
+//! }
+//! assert_eq!(speed_squared(3.0, 4.0), 25.0);
+//! assert_eq!(speed_squared(f64x4::splat(3.0), f64x4::splat(4.0)).to_array(), [25.0; 4]);
+//! ```
+
+mod pack;
+mod twin;
+
+use core::fmt::Debug;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use crate::real::Real;
+
+pub use twin::Twin;
+
+/// One truth value for each lane.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// Whether any lane is true.
+    fn any(self) -> bool;
+
+    /// Whether all lanes are true.
+    fn all(self) -> bool;
+
+    /// The lanes as bits, lane 0 lowest; bits past the last lane are 0.
+    fn bits(self) -> u32;
+}
+
+/// `WIDTH` reals of type [`Lane::Scalar`], operated on together.
+///
+/// Comparisons are false where an operand is NaN, as they are for the
+/// primitive types.
+pub trait Lane:
+    Copy
+    + Debug
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The precision.
+    type Scalar: Real;
+    /// What a comparison gives.
+    type Mask: Mask;
+    /// `[Scalar; WIDTH]`.
+    type Array: Copy + Send + Sync + AsRef<[Self::Scalar]> + AsMut<[Self::Scalar]>;
+
+    /// How many reals there are in a lane.
+    const WIDTH: usize;
+
+    /// 0 in every lane.
+    const ZERO: Self;
+
+    /// 1 in every lane.
+    const ONE: Self;
+
+    /// The same value in every lane.
+    fn splat(value: Self::Scalar) -> Self;
+
+    /// The lanes from an array.
+    fn from_array(values: Self::Array) -> Self;
+
+    /// The lanes as an array.
+    fn to_array(self) -> Self::Array;
+
+    /// Splits a column into whole arrays and the tail that fills none.
+    fn arrays(column: &[Self::Scalar]) -> (&[Self::Array], &[Self::Scalar]);
+
+    /// Splits a column into whole arrays and the tail that fills none.
+    fn arrays_mut(column: &mut [Self::Scalar]) -> (&mut [Self::Array], &mut [Self::Scalar]);
+
+    /// Lane `k` is `value(k)`.
+    fn from_fn(value: impl FnMut(usize) -> Self::Scalar) -> Self;
+
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+
+    /// Absolute value.
+    fn abs(self) -> Self;
+
+    /// `self < other`.
+    fn lt(self, other: Self) -> Self::Mask;
+
+    /// `self ≤ other`.
+    fn le(self, other: Self) -> Self::Mask;
+
+    /// `self = other`; zeros of either sign are equal.
+    fn same(self, other: Self) -> Self::Mask;
+
+    /// `yes` where the mask is true, `no` elsewhere.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    /// `self > other`.
+    #[inline(always)]
+    fn gt(self, other: Self) -> Self::Mask {
+        other.lt(self)
+    }
+
+    /// `self ≥ other`.
+    #[inline(always)]
+    fn ge(self, other: Self) -> Self::Mask {
+        other.le(self)
+    }
+
+    /// The constant `numerator/denominator`, rounded in the lane's own
+    /// precision.
+    #[inline(always)]
+    fn ratio(numerator: i32, denominator: i32) -> Self {
+        Self::splat(Self::Scalar::whole(numerator) / Self::Scalar::whole(denominator))
+    }
+
+    /// The lesser one by comparison: `other` where either is NaN.
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+
+    /// The greater one by comparison: `other` where either is NaN.
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        Self::select(self.gt(other), self, other)
+    }
+
+    /// The nearest whole number, ties to even; the value itself from
+    /// [`Real::WHOLE_FROM`] up, where every number is whole.
+    #[inline(always)]
+    fn nearest_whole(self) -> Self {
+        // Adding 1.5·2^(digits−1) leaves no digit after the point.
+        let magic = Self::splat(Self::Scalar::ROUNDING_MAGIC);
+        let rounded = (self + magic) - magic;
+        Self::select(self.abs().lt(Self::splat(Self::Scalar::WHOLE_FROM)), rounded, self)
+    }
+
+    /// The first `WIDTH` values of a column.
+    ///
+    /// # Panics
+    /// If the column is shorter than `WIDTH`.
+    #[inline(always)]
+    fn load(column: &[Self::Scalar]) -> Self {
+        Self::from_array(Self::arrays(&column[..Self::WIDTH]).0[0])
+    }
+
+    /// Writes the lanes to the first `WIDTH` places of a column.
+    ///
+    /// # Panics
+    /// If the column is shorter than `WIDTH`.
+    #[inline(always)]
+    fn store(self, column: &mut [Self::Scalar]) {
+        column[..Self::WIDTH].copy_from_slice(self.to_array().as_ref());
+    }
+
+    /// Up to `WIDTH` values of a column; lanes past its end take `padding`.
+    #[inline(always)]
+    fn load_tail(column: &[Self::Scalar], padding: Self::Scalar) -> Self {
+        Self::from_fn(|k| column.get(k).copied().unwrap_or(padding))
+    }
+
+    /// Writes as many lanes as the column has places, up to `WIDTH`.
+    #[inline(always)]
+    fn store_tail(self, column: &mut [Self::Scalar]) {
+        for (place, value) in column.iter_mut().zip(self.to_array().as_ref()) {
+            *place = *value;
+        }
+    }
+
+    /// Lane `k` is `column[indices[k]]`.
+    ///
+    /// # Panics
+    /// If there are fewer than `WIDTH` indices, or one is past the column's end.
+    #[inline(always)]
+    fn gather(column: &[Self::Scalar], indices: &[u32]) -> Self {
+        let indices = &indices[..Self::WIDTH];
+        Self::from_fn(|k| column[indices[k] as usize])
+    }
+
+    /// `column[indices[k]]` becomes lane `k`. Indices that occur twice keep the
+    /// last lane's value.
+    ///
+    /// # Panics
+    /// If there are fewer than `WIDTH` indices, or one is past the column's end.
+    #[inline(always)]
+    fn scatter(self, column: &mut [Self::Scalar], indices: &[u32]) {
+        for (value, index) in self.to_array().as_ref().iter().zip(&indices[..Self::WIDTH]) {
+            column[*index as usize] = *value;
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Three by three matrices of lanes.
+
+use core::ops::{Mul, Sub};
+
+use crate::lane::Lane;
+use crate::vec3::Vec3;
+
+/// A matrix by its columns. An orientation takes body axes to world axes: its
+/// columns are the body's axes in the world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mat3<L> {
+    /// The three columns.
+    pub columns: [Vec3<L>; 3],
+}
+
+impl<L: Lane> Mat3<L> {
+    /// The matrix with these columns.
+    #[inline(always)]
+    pub const fn from_columns(x: Vec3<L>, y: Vec3<L>, z: Vec3<L>) -> Self {
+        Self { columns: [x, y, z] }
+    }
+
+    /// The identity.
+    pub const IDENTITY: Self = Self::from_columns(
+        Vec3::new(L::ONE, L::ZERO, L::ZERO),
+        Vec3::new(L::ZERO, L::ONE, L::ZERO),
+        Vec3::new(L::ZERO, L::ZERO, L::ONE),
+    );
+
+    /// The same matrix in every lane.
+    #[inline(always)]
+    pub fn splat(value: Mat3<L::Scalar>) -> Self {
+        Self { columns: value.columns.map(Vec3::splat) }
+    }
+
+    /// The transposed matrix.
+    #[inline(always)]
+    pub fn transpose(self) -> Self {
+        let [a, b, c] = self.columns;
+        Self::from_columns(
+            Vec3::new(a.x, b.x, c.x),
+            Vec3::new(a.y, b.y, c.y),
+            Vec3::new(a.z, b.z, c.z),
+        )
+    }
+
+    /// The nine elements, row by row.
+    #[inline(always)]
+    pub fn rows(self) -> [L; 9] {
+        let [a, b, c] = self.columns;
+        [a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z]
+    }
+
+    /// The matrix with these elements, row by row.
+    #[inline(always)]
+    pub fn from_rows(m: [L; 9]) -> Self {
+        Self::from_columns(
+            Vec3::new(m[0], m[3], m[6]),
+            Vec3::new(m[1], m[4], m[7]),
+            Vec3::new(m[2], m[5], m[8]),
+        )
+    }
+
+    /// Lane by lane, `yes` where the mask is true and `no` elsewhere.
+    #[inline(always)]
+    pub fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            columns: core::array::from_fn(|k| Vec3::select(mask, yes.columns[k], no.columns[k])),
+        }
+    }
+}
+
+impl<L: Lane> Mul<Vec3<L>> for Mat3<L> {
+    type Output = Vec3<L>;
+
+    #[inline(always)]
+    fn mul(self, v: Vec3<L>) -> Vec3<L> {
+        let [a, b, c] = self.columns;
+        a * v.x + b * v.y + c * v.z
+    }
+}
+
+impl<L: Lane> Mul for Mat3<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self { columns: other.columns.map(|column| self * column) }
+    }
+}
+
+impl<L: Lane> Sub for Mat3<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { columns: core::array::from_fn(|k| self.columns[k] - other.columns[k]) }
+    }
+}

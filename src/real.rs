@@ -1,0 +1,179 @@
+//! Real: the precisions that every formula of this crate is written over.
+
+use core::fmt::{Display, LowerExp};
+
+use num_traits::Num;
+
+use crate::lane::{Lane, Twin};
+
+/// A precision: `f32`, `f64`, or any other number with `+ − × ÷ √`, an order
+/// and constants (a double-double is one).
+///
+/// A `Real` is a lane of one, so a formula over [`Lane`] takes it as it is:
+/// that is the scalar reference path.
+pub trait Real:
+    Lane<Scalar = Self, Mask = bool, Array = [Self; 1]> + Num + PartialOrd + Display + LowerExp
+{
+    /// Four reals at once.
+    type Pack4: Lane<Scalar = Self>;
+    /// Eight reals at once.
+    type Pack8: Lane<Scalar = Self>;
+    /// Sixteen reals at once.
+    type Pack16: Lane<Scalar = Self>;
+    /// A cache line or more of reals: what a [`Column`](crate::column::Column)
+    /// allocates, for its alignment and its padding.
+    type Block: Copy + Send + Sync + core::fmt::Debug;
+
+    /// What the scene file and the summary call this precision.
+    const NAME: &'static str;
+
+    /// Distance from 1 to the next greater number.
+    const EPSILON: Self;
+
+    /// `1.5 · 2^(digits − 1)`: added and subtracted again, it rounds to a whole
+    /// number.
+    const ROUNDING_MAGIC: Self;
+
+    /// From here up every number is whole: `2^(digits − 1)`.
+    const WHOLE_FROM: Self;
+
+    /// The largest count of quarter turns whose product with each of
+    /// [`QUARTER_TURN`](Real::QUARTER_TURN)'s parts but the last is exact.
+    const QUARTER_TURNS_EXACT: Self;
+
+    /// π/2 as a sum of parts, greatest first, all but the last with so few
+    /// digits that a product with a count of quarter turns is exact.
+    const QUARTER_TURN: &'static [Self];
+
+    /// `1/n!` for `n` from 0, as many as sine and cosine need on an eighth of a
+    /// turn for an error below a tenth of [`EPSILON`](Real::EPSILON).
+    fn inverse_factorials() -> &'static [Self];
+
+    /// A whole number.
+    fn whole(value: i32) -> Self;
+
+    /// The nearest number of this precision.
+    fn from_f64(value: f64) -> Self;
+
+    /// The nearest `f64`.
+    fn to_f64(self) -> f64;
+
+    /// The blocks' reals, one after another.
+    fn flat(blocks: &[Self::Block]) -> &[Self];
+
+    /// The blocks' reals, one after another.
+    fn flat_mut(blocks: &mut [Self::Block]) -> &mut [Self];
+
+    /// A block of equal reals.
+    fn block(value: Self) -> Self::Block;
+
+    /// Whether the number is neither infinite nor NaN.
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self - self == Self::ZERO
+    }
+
+    /// The bytes of the number, in the order that the state hash reads them.
+    fn write_bits(self, bytes: &mut Vec<u8>);
+}
+
+/// `1/n!` for `n` from 0: exact factorials, one rounded division.
+macro_rules! inverse_factorials {
+    ($real:ident, $count:literal) => {{
+        const TABLE: [$real; $count] = {
+            let mut table = [1.0; $count];
+            let mut factorial = 1.0_f64;
+            let mut n = 1;
+            while n < $count {
+                factorial *= n as f64;
+                table[n] = (1.0 / factorial) as $real;
+                n += 1;
+            }
+            table
+        };
+        &TABLE
+    }};
+}
+
+macro_rules! real {
+    ($real:ident, $block:ident, $pack4:ty, $pack8:ty, $pack16:ty, $factorials:literal,
+     $exact:literal, $quarter_turn:expr) => {
+        impl Real for $real {
+            type Pack4 = $pack4;
+            type Pack8 = $pack8;
+            type Pack16 = $pack16;
+            type Block = wide::$block;
+
+            const NAME: &'static str = stringify!($real);
+            const EPSILON: Self = $real::EPSILON;
+            const ROUNDING_MAGIC: Self = 1.5 / $real::EPSILON;
+            const WHOLE_FROM: Self = 1.0 / $real::EPSILON;
+            const QUARTER_TURNS_EXACT: Self = $exact;
+            const QUARTER_TURN: &'static [Self] = &$quarter_turn;
+
+            #[inline(always)]
+            fn inverse_factorials() -> &'static [Self] {
+                inverse_factorials!($real, $factorials)
+            }
+
+            #[inline(always)]
+            fn whole(value: i32) -> Self {
+                value as $real
+            }
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                value as $real
+            }
+
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline(always)]
+            fn flat(blocks: &[Self::Block]) -> &[Self] {
+                wide::bytemuck::cast_slice(blocks)
+            }
+
+            #[inline(always)]
+            fn flat_mut(blocks: &mut [Self::Block]) -> &mut [Self] {
+                wide::bytemuck::cast_slice_mut(blocks)
+            }
+
+            #[inline(always)]
+            fn block(value: Self) -> Self::Block {
+                Lane::splat(value)
+            }
+
+            #[inline]
+            fn write_bits(self, bytes: &mut Vec<u8>) {
+                bytes.extend_from_slice(&self.to_le_bytes());
+            }
+        }
+    };
+}
+
+real!(
+    f32,
+    f32x16,
+    wide::f32x4,
+    wide::f32x8,
+    wide::f32x16,
+    12,
+    16384.0,
+    // 10 digits each, the last 24.
+    [1.5703125, 4.835_128_8e-4, 3.138_557e-7, 6.070_877e-11, 6.217_249e-14, 6.123_234_3e-17]
+);
+
+real!(
+    f64,
+    f64x8,
+    wide::f64x4,
+    wide::f64x8,
+    Twin<wide::f64x8>,
+    20,
+    16777216.0,
+    // 29 digits each, the last 53.
+    [1.570796325802803, 9.920935774287987e-10, 2.2517417706346578e-18, 3.5215598651832e-27]
+);

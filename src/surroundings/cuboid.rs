@@ -1,0 +1,91 @@
+//! Cuboid: a solid box with its edges and corners, or the hollow in one.
+
+use super::{Clearance, Plane};
+use crate::lane::{Lane, Mask};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// An axis-aligned box fixed in space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cuboid<T> {
+    /// The corner with the least coordinates, length.
+    pub lower: Vec3<T>,
+    /// The corner with the greatest coordinates, length.
+    pub upper: Vec3<T>,
+    /// Whether bodies are inside of it: a container.
+    pub inside: bool,
+}
+
+impl<T: Real> Cuboid<T> {
+    /// A solid box that bodies bounce off.
+    #[must_use]
+    pub fn solid(lower: [T; 3], upper: [T; 3]) -> Self {
+        Self { lower: lower.into(), upper: upper.into(), inside: false }
+    }
+
+    /// A container that bodies are inside of.
+    #[must_use]
+    pub fn container(lower: [T; 3], upper: [T; 3]) -> Self {
+        Self { lower: lower.into(), upper: upper.into(), inside: true }
+    }
+
+    /// The six faces as planes that look into the box.
+    #[must_use]
+    pub fn faces(&self) -> [Plane<T>; 6] {
+        let [one, zero] = [T::ONE, T::ZERO];
+        let face = |point, normal| Plane { point, normal };
+        [
+            face(self.lower, Vec3::new(one, zero, zero)),
+            face(self.upper, Vec3::new(-one, zero, zero)),
+            face(self.lower, Vec3::new(zero, one, zero)),
+            face(self.upper, Vec3::new(zero, -one, zero)),
+            face(self.lower, Vec3::new(zero, zero, one)),
+            face(self.upper, Vec3::new(zero, zero, -one)),
+        ]
+    }
+
+    /// Where spheres with these centres and radii stand to the solid box: to
+    /// the nearest point of a face, an edge or a corner. A centre inside the
+    /// solid is pushed out through the nearest face.
+    #[inline(always)]
+    pub fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+        let lower = Vec3::<L>::splat(self.lower);
+        let upper = Vec3::<L>::splat(self.upper);
+        let beyond = |c: L, low: L, high: L| c - low.greater(c).lesser(high);
+        let outward = Vec3::new(
+            beyond(center.x, lower.x, upper.x),
+            beyond(center.y, lower.y, upper.y),
+            beyond(center.z, lower.z, upper.z),
+        );
+        let distance = outward.length();
+        let is_outside = distance.gt(L::ZERO);
+        let away = Clearance { gap: distance - radius, arm: outward * (radius / distance) };
+        if is_outside.all() {
+            return away;
+        }
+
+        // Depth below the nearer face of each axis, and that face's normal.
+        let below = |c: L, low: L, high: L| {
+            let to_low = c - low;
+            let to_high = high - c;
+            let is_low = to_low.lt(to_high);
+            (L::select(is_low, to_low, to_high), L::select(is_low, -L::ONE, L::ONE))
+        };
+        let (depth_x, side_x) = below(center.x, lower.x, upper.x);
+        let (depth_y, side_y) = below(center.y, lower.y, upper.y);
+        let (depth_z, side_z) = below(center.z, lower.z, upper.z);
+        let is_x = depth_x.le(depth_y) & depth_x.le(depth_z);
+        let is_y = !is_x & depth_y.le(depth_z);
+        let is_z = !is_x & !is_y;
+        let depth = L::select(is_x, depth_x, L::select(is_y, depth_y, depth_z));
+        let normal = Vec3::new(
+            L::select(is_x, side_x, L::ZERO),
+            L::select(is_y, side_y, L::ZERO),
+            L::select(is_z, side_z, L::ZERO),
+        );
+        Clearance {
+            gap: L::select(is_outside, away.gap, -(depth + radius)),
+            arm: Vec3::select(is_outside, away.arm, normal * radius),
+        }
+    }
+}

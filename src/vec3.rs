@@ -1,0 +1,156 @@
+//! Vectors of three lanes.
+
+use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+use crate::lane::Lane;
+
+/// A vector of space: as many vectors as the lane is wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vec3<L> {
+    /// First component.
+    pub x: L,
+    /// Second component.
+    pub y: L,
+    /// Third component.
+    pub z: L,
+}
+
+impl<L> Vec3<L> {
+    /// The vector `(x, y, z)`.
+    #[inline(always)]
+    pub const fn new(x: L, y: L, z: L) -> Self {
+        Self { x, y, z }
+    }
+
+    /// The components as an array.
+    #[inline(always)]
+    pub fn to_array(self) -> [L; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+impl<L> From<[L; 3]> for Vec3<L> {
+    #[inline(always)]
+    fn from([x, y, z]: [L; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl<L: Lane> Vec3<L> {
+    /// The zero vector.
+    pub const ZERO: Self = Self::new(L::ZERO, L::ZERO, L::ZERO);
+
+    /// The same vector in every lane.
+    #[inline(always)]
+    pub fn splat(value: Vec3<L::Scalar>) -> Self {
+        Self::new(L::splat(value.x), L::splat(value.y), L::splat(value.z))
+    }
+
+    /// Scalar product.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> L {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// Vector product.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
+    /// `self · self`.
+    #[inline(always)]
+    pub fn length_squared(self) -> L {
+        self.dot(self)
+    }
+
+    /// Euclidean length.
+    #[inline(always)]
+    pub fn length(self) -> L {
+        self.length_squared().sqrt()
+    }
+
+    /// Lane by lane, `yes` where the mask is true and `no` elsewhere.
+    #[inline(always)]
+    pub fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Self::new(
+            L::select(mask, yes.x, no.x),
+            L::select(mask, yes.y, no.y),
+            L::select(mask, yes.z, no.z),
+        )
+    }
+
+    /// Lane `k` is element `indices[k]` of the three columns.
+    ///
+    /// # Panics
+    /// As [`Lane::gather`].
+    #[inline(always)]
+    pub fn gather(columns: [&[L::Scalar]; 3], indices: &[u32]) -> Self {
+        columns.map(|column| L::gather(column, indices)).into()
+    }
+
+    /// Element `indices[k]` of the three columns becomes lane `k`.
+    ///
+    /// # Panics
+    /// As [`Lane::scatter`].
+    #[inline(always)]
+    pub fn scatter(self, columns: [&mut [L::Scalar]; 3], indices: &[u32]) {
+        for (lane, column) in self.to_array().into_iter().zip(columns) {
+            lane.scatter(column, indices);
+        }
+    }
+}
+
+impl<L: Lane> Add for Vec3<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl<L: Lane> Sub for Vec3<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+
+impl<L: Lane> Neg for Vec3<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y, -self.z)
+    }
+}
+
+impl<L: Lane> Mul<L> for Vec3<L> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: L) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+impl<L: Lane> AddAssign for Vec3<L> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<L: Lane> SubAssign for Vec3<L> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
