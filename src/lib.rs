@@ -2,8 +2,11 @@
 
 pub mod bodies;
 pub mod column;
+pub mod contact;
+pub mod engine;
 pub mod lane;
 pub mod mat3;
+pub mod motion;
 pub mod real;
 pub mod surroundings;
 pub mod vec3;

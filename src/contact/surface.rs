@@ -1,0 +1,17 @@
+//! Surface: what happens to the slip of two surfaces when they meet.
+
+use serde::{Deserialize, Serialize};
+
+/// The surfaces of all bodies and surroundings of a scene. Both kinds conserve
+/// energy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Surface {
+    /// Frictionless, `e = 1, β = −1`: a contact pushes along the normal only,
+    /// and spins never change.
+    #[default]
+    Smooth,
+    /// Perfectly rough, `e = β = 1`: a contact reverses the relative velocity
+    /// of the surfaces, the tangential part too.
+    Rough,
+}

@@ -1,0 +1,75 @@
+//! Engines: what moves a scene through time.
+
+mod event;
+
+use serde::{Deserialize, Serialize};
+
+pub use event::{Event, Partner};
+
+/// How an engine goes through time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EngineKind {
+    /// Steps of fixed length.
+    #[default]
+    Stepped,
+    /// Every collision at its exact time.
+    EventDriven,
+}
+
+/// Where inside a step of the stepped engine a contact takes effect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Impact {
+    /// At the end of the step, where the bodies are found to overlap.
+    #[default]
+    EndOfStep,
+    /// At the time of impact inside the step: back to contact, impulse at the
+    /// true normal, forward again.
+    SubStep,
+}
+
+/// When orientations are brought up to date.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OrientationUpdate {
+    /// As a closed form of the last change of spin, when somebody asks.
+    #[default]
+    WhenAsked,
+    /// `M ← R M` in each step.
+    EachStep,
+}
+
+/// How many reals a kernel works on at once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Lanes {
+    /// The fastest widths for each kernel.
+    #[default]
+    Auto,
+    /// One: the scalar reference path.
+    Scalar,
+    /// Four.
+    Four,
+    /// Eight.
+    Eight,
+    /// Sixteen.
+    Sixteen,
+}
+
+/// On what a scene is run; it changes no bit of the result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Execution {
+    /// How many reals a kernel works on at once.
+    pub lanes: Lanes,
+    /// Worker threads; 0 takes all cores.
+    pub threads: usize,
+}
+
+/// Collisions counted by an engine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Collisions {
+    /// Between two bodies.
+    pub pairs: u64,
+    /// Between a body and something fixed.
+    pub surroundings: u64,
+}

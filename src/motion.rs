@@ -1,0 +1,5 @@
+//! Motion: free flight between contacts.
+
+mod integrator;
+
+pub use integrator::Integrator;
