@@ -1,6 +1,7 @@
 //! carom simulates rigid spheres in motion.
 
 pub mod bodies;
+mod broadphase;
 pub mod column;
 pub mod contact;
 pub mod engine;
@@ -10,3 +11,4 @@ pub mod motion;
 pub mod real;
 pub mod surroundings;
 pub mod vec3;
+mod workers;
