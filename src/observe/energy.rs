@@ -1,0 +1,88 @@
+//! Energy of a state.
+
+use core::fmt;
+
+use crate::bodies::Bodies;
+use crate::observe::{CompensatedSum, wide};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// Energy of all bodies, mass × length² per time².
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Of the centres' motion: `Σ ½ m v²`.
+    pub translational: f64,
+    /// Of the spins: `Σ ½ I w²`.
+    pub rotational: f64,
+    /// In the uniform field, zero at the origin: `−Σ m g·c`.
+    pub potential: f64,
+}
+
+impl Energy {
+    /// The energy of bodies in a uniform field of acceleration `gravity`.
+    #[must_use]
+    pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<T>) -> Self {
+        let gravity = wide(gravity);
+        let [mut translational, mut rotational, mut potential] = [CompensatedSum::default(); 3];
+        for index in 0..bodies.len() {
+            let mass = bodies.mass.of(index).to_f64();
+            let inertia = bodies.inertia.of(index).to_f64();
+            translational.add(0.5 * mass * wide(bodies.velocity_of(index)).length_squared());
+            rotational.add(0.5 * inertia * wide(bodies.spin_of(index)).length_squared());
+            potential.add(-mass * gravity.dot(wide(bodies.position_of(index))));
+        }
+        Self {
+            translational: translational.value(),
+            rotational: rotational.value(),
+            // Without a field every term is −0.
+            potential: potential.value() + 0.0,
+        }
+    }
+
+    /// Translational and rotational energy.
+    #[must_use]
+    pub fn kinetic(&self) -> f64 {
+        self.translational + self.rotational
+    }
+
+    /// All of it.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        [self.translational, self.rotational, self.potential]
+            .into_iter()
+            .collect::<CompensatedSum>()
+            .value()
+    }
+
+    /// How far the total is from an earlier one, as a fraction of that one.
+    ///
+    /// Where the earlier total is 0, as a fraction of the kinetic energy now:
+    /// the zero of the potential is a convention, so a total of 0 is a state
+    /// like any other.
+    ///
+    /// ```
+    /// use carom::observe::Energy;
+    /// let before = Energy { translational: 4.0, ..Energy::default() };
+    /// let after = Energy { translational: 2.0, rotational: 1.0, potential: 0.0 };
+    /// assert_eq!(after.relative_change(&before), -0.25);
+    /// ```
+    #[must_use]
+    pub fn relative_change(&self, earlier: &Self) -> f64 {
+        let change = self.total() - earlier.total();
+        let scale = if earlier.total() == 0.0 { self.kinetic() } else { earlier.total().abs() };
+        if change == 0.0 { 0.0 } else { change / scale }
+    }
+}
+
+impl fmt::Display for Energy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} ({} translational, {} rotational, {} potential)",
+            self.total(),
+            self.translational,
+            self.rotational,
+            self.potential
+        )
+    }
+}
