@@ -32,6 +32,11 @@ use crate::workers::Workers;
 /// Each grid takes radii down to half its greatest.
 const MOST_GRIDS: usize = 24;
 
+/// What the first search goes by: bodies in a diameter cubed, and the widest
+/// skin in diameters.
+const FIRST_DENSITY: f64 = 0.2;
+const FIRST_SKIN: f64 = 0.5;
+
 /// Bodies whose cells are found as one piece of work.
 const RANKED: usize = 1 << 14;
 
@@ -83,12 +88,19 @@ impl<T: Real> BroadPhase<T> {
     }
 
     /// The skin to search with when bodies move through `travel` in a step at
-    /// most, length.
+    /// most and the last search was done with the skin `last`, lengths.
     #[must_use]
-    pub fn skin(&self, travel: T) -> T {
+    pub fn skin(&self, travel: T, last: T) -> T {
         let diameter = self.mean_diameter;
-        let density = self.density.unwrap_or(0.2);
-        T::from_f64(diameter * best_skin(travel.to_f64() / diameter, density))
+        let best = match self.density {
+            None => best_skin(travel.to_f64() / diameter, FIRST_DENSITY).min(FIRST_SKIN),
+            // The density is only known as far as the last search went.
+            Some(density) => {
+                let best = best_skin(travel.to_f64() / diameter, density);
+                best.min(2.0 * last.to_f64() / diameter)
+            }
+        };
+        T::from_f64(diameter * best)
     }
 
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the

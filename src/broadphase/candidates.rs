@@ -164,7 +164,7 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
     }
 
     /// Tests one body against the bodies of a run of places.
-    #[inline(always)]
+    #[inline]
     fn test<L: Lane<Scalar = T>>(
         &self,
         body: usize,

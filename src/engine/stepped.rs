@@ -21,6 +21,7 @@ use crate::bodies::Bodies;
 use crate::broadphase::{BroadPhase, Candidates};
 use crate::lane::Lane;
 use crate::motion::Integrator;
+use crate::motion::turning::turn;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space};
@@ -38,14 +39,21 @@ use tallies::Tallies;
 /// Bodies flown as one piece of work.
 const FLOWN: usize = 1 << 14;
 
-/// Calls a method in the lanes of a width.
+/// Calls a method in the lanes of a width for sweeps or for gathers.
 macro_rules! in_lanes {
-    ($width:expr, $self:ident.$method:ident::<$real:ident>($($argument:expr),*)) => {
-        match $width {
+    ($plan:ident.sweep_lanes, $self:ident.$method:ident::<$real:ident>($($argument:expr),*)) => {
+        match $self.$plan.sweep_lanes {
             1 => $self.$method::<$real>($($argument),*),
             4 => $self.$method::<$real::Pack4>($($argument),*),
             8 => $self.$method::<$real::Pack8>($($argument),*),
             _ => $self.$method::<$real::Pack16>($($argument),*),
+        }
+    };
+    ($plan:ident.gather_lanes, $self:ident.$method:ident::<$real:ident>($($argument:expr),*)) => {
+        match $self.$plan.gather_lanes {
+            1 => $self.$method::<$real>($($argument),*),
+            4 => $self.$method::<$real::Pack4>($($argument),*),
+            _ => $self.$method::<$real::Pack8>($($argument),*),
         }
     };
 }
@@ -266,10 +274,10 @@ impl<T: Real> Stepped<T> {
     }
 
     fn take_step_on(&mut self, workers: &Workers, record: Option<&mut Record<T>>) {
-        let travel = in_lanes!(self.plan.sweep_lanes, self.fly::<T>(workers));
+        let travel = in_lanes!(plan.sweep_lanes, self.fly::<T>(workers));
         self.steps += 1;
         if self.plan.turning == Turning::EachStep {
-            in_lanes!(self.plan.sweep_lanes, self.rotate::<T>(workers));
+            in_lanes!(plan.sweep_lanes, self.rotate::<T>(workers));
         }
         self.orientations.keep_count(&mut self.state, self.steps, self.dt);
         if !self.plan.has_pairs && self.features.is_empty() {
@@ -278,7 +286,7 @@ impl<T: Real> Stepped<T> {
         self.travelled = self.travelled + travel;
         let is_valid = (self.travelled + self.travelled).lt(self.skin);
         if self.steps == 1 || !is_valid {
-            in_lanes!(self.plan.gather_lanes, self.renew_candidates::<T>(workers, travel));
+            in_lanes!(plan.gather_lanes, self.renew_candidates::<T>(workers, travel));
         }
         self.find_contacts(workers, travel);
         if !self.waiting.is_empty() {
@@ -316,7 +324,7 @@ impl<T: Real> Stepped<T> {
     fn rotate<L: Lane<Scalar = T>>(&mut self, _workers: &Workers) {
         if let Some(rows) = &mut self.state.orientation {
             let spin = self.state.spin.each_ref().map(|column| &column[..]);
-            crate::motion::rotate::<L>(spin, rows.each_mut().map(|row| &mut row[..]), self.dt);
+            turn::<L>(rows.each_mut().map(|row| &mut row[..]), spin, self.dt);
         }
     }
 
@@ -324,7 +332,7 @@ impl<T: Real> Stepped<T> {
     fn renew_candidates<L: Lane<Scalar = T>>(&mut self, workers: &Workers, travel: T) {
         // Two bodies may have passed each other within the step just taken.
         let swept = travel * T::ratio(9, 4);
-        self.skin = self.broadphase.skin(travel).greater(swept);
+        self.skin = self.broadphase.skin(travel, self.skin).greater(swept);
         let (periodic, pairs) = (self.periodic, self.plan.has_pairs);
         let surveyed = self.state.surveyed(periodic, &self.features, pairs);
         let order = self.broadphase.sort(&surveyed, self.skin, workers);

@@ -79,7 +79,6 @@ impl Places {
 
 impl<S> Impacts<S> {
     /// The impulses of contacts between bodies.
-    #[inline(always)]
     pub fn pairs<L, T, const ROUGH: bool>(
         &self,
         state: &State<T>,
@@ -101,7 +100,7 @@ impl<S> Impacts<S> {
         }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn pack_of_pairs<L, T, const ROUGH: bool>(
         &self,
         state: &State<T>,
@@ -138,7 +137,6 @@ impl<S> Impacts<S> {
     }
 
     /// The impulses of contacts of bodies with one fixed feature.
-    #[inline(always)]
     pub fn surroundings<L, T, const ROUGH: bool>(
         &self,
         state: &State<T>,
@@ -163,7 +161,7 @@ impl<S> Impacts<S> {
         }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn pack_at_feature<L, T, const ROUGH: bool>(
         &self,
         state: &State<T>,

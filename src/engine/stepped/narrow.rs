@@ -127,7 +127,6 @@ impl<T: Real> Detection<T> for WithinStep<T> {
 }
 
 /// The candidates of a chunk that touch, appended to `found`.
-#[inline(always)]
 pub(super) fn touching_pairs<L, T, D, R, S>(
     state: &State<T>,
     detection: D,
@@ -143,20 +142,35 @@ pub(super) fn touching_pairs<L, T, D, R, S>(
     S: Space<T>,
 {
     let whole = pairs.a.len() - pairs.a.len() % L::WIDTH;
-    for start in (0..whole).step_by(L::WIDTH) {
-        let (a, b) = (&pairs.a[start..start + L::WIDTH], &pairs.b[start..start + L::WIDTH]);
+    let (a, a_tail) = pairs.a.split_at(whole);
+    let (b, b_tail) = pairs.b.split_at(whole);
+    sweep_pairs::<L, _, _, _, _>(state, detection, radius, space, (a, b), found);
+    sweep_pairs::<T, _, _, _, _>(state, detection, radius, space, (a_tail, b_tail), found);
+}
+
+/// Whole packs of pairs; not inlined, since every width has the same tail.
+#[inline(never)]
+fn sweep_pairs<L, T, D, R, S>(
+    state: &State<T>,
+    detection: D,
+    radius: R,
+    space: S,
+    (a, b): (&[u32], &[u32]),
+    found: &mut Vec<Contact<T>>,
+) where
+    L: Lane<Scalar = T>,
+    T: Real,
+    D: Detection<T>,
+    R: Figure<T>,
+    S: Space<T>,
+{
+    for (a, b) in a.chunks_exact(L::WIDTH).zip(b.chunks_exact(L::WIDTH)) {
         let (touching, ago) = detection.pairs::<L, R, S>(state, radius, space, a, b);
-        push(touching, ago, found, |k| in_order(state, a[k], b[k]));
-    }
-    for k in whole..pairs.a.len() {
-        let (a, b) = (&pairs.a[k..=k], &pairs.b[k..=k]);
-        let (touching, ago) = detection.pairs::<T, R, S>(state, radius, space, a, b);
         push(touching, ago, found, |k| in_order(state, a[k], b[k]));
     }
 }
 
 /// The bodies near a feature that touch it, appended to `found`.
-#[inline(always)]
 pub(super) fn touching_surroundings<L, T, D, R>(
     state: &State<T>,
     detection: D,
@@ -170,15 +184,30 @@ pub(super) fn touching_surroundings<L, T, D, R>(
     D: Detection<T>,
     R: Figure<T>,
 {
-    let rank = |place: u32| Rank::of_surroundings(state.index[place as usize], number);
     let (whole, tail) = bodies.split_at(bodies.len() - bodies.len() % L::WIDTH);
-    for bodies in whole.chunks_exact(L::WIDTH) {
+    sweep_surroundings::<L, _, _, _>(state, detection, radius, (number, feature), whole, found);
+    sweep_surroundings::<T, _, _, _>(state, detection, radius, (number, feature), tail, found);
+}
+
+#[inline(never)]
+fn sweep_surroundings<L, T, D, R>(
+    state: &State<T>,
+    detection: D,
+    radius: R,
+    (number, feature): (u32, &Feature<T>),
+    bodies: &[u32],
+    found: &mut Vec<Contact<T>>,
+) where
+    L: Lane<Scalar = T>,
+    T: Real,
+    D: Detection<T>,
+    R: Figure<T>,
+{
+    for bodies in bodies.chunks_exact(L::WIDTH) {
         let (touching, ago) = detection.surroundings::<L, R>(state, radius, feature, bodies);
-        push(touching, ago, found, |k| (bodies[k], number, rank(bodies[k])));
-    }
-    for body in tail.chunks_exact(1) {
-        let (touching, ago) = detection.surroundings::<T, R>(state, radius, feature, body);
-        push(touching, ago, found, |k| (body[k], number, rank(body[k])));
+        push(touching, ago, found, |k| {
+            (bodies[k], number, Rank::of_surroundings(state.index[bodies[k] as usize], number))
+        });
     }
 }
 

@@ -65,7 +65,7 @@ impl<T: Real> Path<T> {
     ///
     /// Newton's method on the gap along the path, for any feature. From inside
     /// a flat one it comes nearer from one side only.
-    #[inline(always)]
+    #[inline(never)]
     pub fn touch<L: Lane<Scalar = T>>(
         &self,
         feature: &Feature<T>,

@@ -31,13 +31,13 @@ impl<T: Real> Stepped<T> {
         match self.plan.impact {
             Impact::EndOfStep => workers.each(&mut chunks, |(chunk, found)| {
                 found.clear();
-                in_lanes!(self.plan.gather_lanes, self.search_chunk::<T>(AtEnd, chunk, found));
+                in_lanes!(plan.gather_lanes, self.search_chunk::<T>(AtEnd, chunk, found));
             }),
             Impact::SubStep => {
                 let within = WithinStep { path, sweep: travel + travel };
                 workers.each(&mut chunks, |(chunk, found)| {
                     found.clear();
-                    in_lanes!(self.plan.gather_lanes, self.search_chunk::<T>(within, chunk, found));
+                    in_lanes!(plan.gather_lanes, self.search_chunk::<T>(within, chunk, found));
                 });
             }
         }
@@ -130,7 +130,7 @@ impl<T: Real> Stepped<T> {
                 let (outcomes, others) = core::mem::take(&mut rest).split_at_mut(contacts.len());
                 rest = others;
                 in_lanes!(
-                    self.plan.gather_lanes,
+                    plan.gather_lanes,
                     self.impulses_of_kind::<T>(contacts, outcomes)
                 );
             }

@@ -3,9 +3,8 @@
 use crate::bodies::{Bodies, Columns3, PerBody, at};
 use crate::broadphase::Surveyed;
 use crate::column::Column;
-use crate::lane::Lane;
 use crate::mat3::Mat3;
-use crate::motion::turned;
+use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::surroundings::{Feature, PeriodicBox};
 use crate::vec3::Vec3;
