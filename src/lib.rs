@@ -2,6 +2,7 @@
 
 pub mod bodies;
 pub mod column;
+pub mod compensated;
 pub mod contact;
 pub mod engine;
 pub mod lane;
@@ -9,4 +10,5 @@ pub mod mat3;
 pub mod motion;
 pub mod real;
 pub mod surroundings;
+pub mod trigonometry;
 pub mod vec3;
