@@ -3,6 +3,7 @@
 pub mod bodies;
 mod broadphase;
 pub mod column;
+pub mod compensated;
 pub mod contact;
 pub mod engine;
 pub mod lane;
@@ -11,5 +12,6 @@ pub mod motion;
 pub mod observe;
 pub mod real;
 pub mod surroundings;
+pub mod trigonometry;
 pub mod vec3;
 mod workers;
