@@ -16,8 +16,8 @@ mod grid;
 mod order;
 mod skin;
 
-pub use candidates::{Candidates, Chunk, PairList};
-use candidates::{Search, SearchedGrid};
+pub use candidates::{Candidates, Chunk, Pair};
+use candidates::{Search, SearchedGrid, shells_per_length};
 use grid::Grid;
 use order::CellOrder;
 use skin::best_skin;
@@ -207,6 +207,7 @@ impl<T: Real> BroadPhase<T> {
             radius,
             space,
             skin,
+            shells_per_length: shells_per_length(skin),
             starts: &self.order.starts,
             grids: &grids,
         };
@@ -253,11 +254,10 @@ fn classes<T: Real>(radii: &[T]) -> Vec<T> {
 
 /// The corners of the smallest box around all points.
 fn bounds<T: Real>(position: &Columns3<T>) -> (Vec3<T>, Vec3<T>) {
-    let bound = |better: fn(T, T) -> T| {
-        Vec3::from([0, 1, 2].map(|axis| {
-            let first = position[axis].first().copied().unwrap_or(T::ZERO);
-            position[axis].iter().fold(first, |best, &c| better(c, best))
-        }))
-    };
-    (bound(T::lesser), bound(T::greater))
+    let bounds = position.each_ref().map(|column| {
+        let first = column.first().copied().unwrap_or(T::ZERO);
+        column.iter().fold((first, first), |(least, most), &c| (c.lesser(least), c.greater(most)))
+    });
+    let [x, y, z] = bounds;
+    (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
 }

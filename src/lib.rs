@@ -11,6 +11,7 @@ pub mod mat3;
 pub mod motion;
 pub mod observe;
 pub mod real;
+pub mod scene;
 pub mod surroundings;
 pub mod trigonometry;
 pub mod vec3;

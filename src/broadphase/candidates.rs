@@ -12,22 +12,22 @@ use crate::vec3::Vec3;
 /// Bodies searched as one piece of work.
 const CHUNK: usize = 2048;
 
-/// Pairs by the places of their bodies.
-#[derive(Clone, Debug, Default)]
-pub struct PairList {
-    /// The places of the first bodies.
-    pub a: Vec<u32>,
-    /// The places of the second bodies.
-    pub b: Vec<u32>,
-}
+/// Into how many shells the skin is cut. A pair need not be tested before its
+/// bodies can have come through the shells between them; 8 spare about half of
+/// all tests, more shells hardly another.
+const SHELLS: usize = 8;
+
+/// The places of two bodies.
+pub type Pair = [u32; 2];
 
 /// What one piece of the search has found, for the bodies of one range.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Chunk {
     /// The places of the bodies that were searched for.
     pub bodies: Range<usize>,
-    /// Pairs whose surfaces were nearer than the skin.
-    pub pairs: PairList,
+    /// Pairs whose surfaces were nearer than the skin, by the shell that their
+    /// gap was in, innermost first.
+    pub pairs: [Vec<Pair>; SHELLS],
     /// For each feature, the bodies whose surfaces were nearer than the skin.
     pub at_feature: Vec<Vec<u32>>,
 }
@@ -42,15 +42,11 @@ pub struct Candidates {
 impl Candidates {
     /// Empties the lists and cuts `len` bodies into chunks.
     pub(super) fn begin(&mut self, len: usize, features: usize) {
-        self.chunks.resize_with(len.div_ceil(CHUNK), || Chunk {
-            bodies: 0..0,
-            pairs: PairList::default(),
-            at_feature: vec![Vec::new(); features],
-        });
+        self.chunks.resize_with(len.div_ceil(CHUNK), Chunk::default);
         for (k, chunk) in self.chunks.iter_mut().enumerate() {
             chunk.bodies = k * CHUNK..((k + 1) * CHUNK).min(len);
-            chunk.pairs.a.clear();
-            chunk.pairs.b.clear();
+            chunk.pairs.iter_mut().for_each(Vec::clear);
+            chunk.at_feature.resize_with(features, Vec::new);
             chunk.at_feature.iter_mut().for_each(Vec::clear);
         }
     }
@@ -58,19 +54,25 @@ impl Candidates {
     /// How many pairs are candidates.
     #[must_use]
     pub fn pair_count(&self) -> usize {
-        self.chunks.iter().map(|chunk| chunk.pairs.a.len()).sum()
+        self.chunks.iter().flat_map(|chunk| &chunk.pairs).map(Vec::len).sum()
+    }
+
+    /// How many shells are to be tested when two bodies can have come `nearer`
+    /// by this much since a search with this skin, lengths.
+    pub fn shells_within<T: Real>(nearer: T, skin: T) -> usize {
+        let shell = skin / T::whole(SHELLS as i32);
+        (1..SHELLS).find(|&k| nearer < shell * T::whole(k as i32)).unwrap_or(SHELLS)
     }
 
     /// The bytes that the lists hold in memory.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let list = |list: &Vec<u32>| list.capacity() * size_of::<u32>();
         self.chunks
             .iter()
             .map(|chunk| {
-                list(&chunk.pairs.a)
-                    + list(&chunk.pairs.b)
-                    + chunk.at_feature.iter().map(list).sum::<usize>()
+                let pairs: usize = chunk.pairs.iter().map(Vec::capacity).sum();
+                let near: usize = chunk.at_feature.iter().map(Vec::capacity).sum();
+                pairs * size_of::<Pair>() + near * size_of::<u32>()
             })
             .sum()
     }
@@ -89,9 +91,15 @@ pub(super) struct Search<'a, T, R, S> {
     pub radius: R,
     pub space: S,
     pub skin: T,
+    pub shells_per_length: T,
     pub starts: &'a [u32],
     /// Coarsest first; the bodies of each stand behind those of the one before.
     pub grids: &'a [SearchedGrid<T>],
+}
+
+/// Shells in a length when the skin is cut into all of them.
+pub(super) fn shells_per_length<T: Real>(skin: T) -> T {
+    T::whole(SHELLS as i32) / skin
 }
 
 impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
@@ -170,29 +178,38 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         body: usize,
         point: Vec3<T>,
         run: Range<u32>,
-        pairs: &mut PairList,
+        pairs: &mut [Vec<Pair>; SHELLS],
     ) {
-        let own_reach = L::splat(self.radius.load::<T>(body) + self.skin);
+        let own_radius = L::splat(self.radius.load::<T>(body));
+        let skin = L::splat(self.skin);
         let point = Vec3::<L>::splat(point);
         let mut start = run.start as usize;
         let end = run.end as usize;
         while start < end {
             // The columns are padded, but a run may start at any place.
-            let other = if start + L::WIDTH <= self.position[0].len() {
-                self.position.map(|column| L::load(&column[start..]))
+            let [x, y, z] = self.position;
+            let other = if start + L::WIDTH <= x.len() {
+                Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]))
             } else {
-                self.position.map(|column| L::load_tail(&column[start..], T::ZERO))
+                let tail = |column: &[T]| L::load_tail(&column[start..], T::ZERO);
+                Vec3::new(tail(x), tail(y), tail(z))
             };
-            let reach = own_reach + self.radius.load_tail::<L>(start);
-            let offset = self.space.nearest(point - Vec3::from(other));
-            let mut near = offset.length_squared().lt(reach * reach).bits();
+            let contact = own_radius + self.radius.load_tail::<L>(start);
+            let reach = contact + skin;
+            let distance_squared = self.space.nearest(point - other).length_squared();
+            let mut near = distance_squared.lt(reach * reach).bits();
             if end - start < L::WIDTH {
                 near &= (1 << (end - start)) - 1;
             }
-            while near != 0 {
-                pairs.a.push(body as u32);
-                pairs.b.push(start as u32 + near.trailing_zeros());
-                near &= near - 1;
+            if near != 0 {
+                let gap = distance_squared.sqrt() - contact;
+                let shell = (gap * L::splat(self.shells_per_length)).to_array();
+                while near != 0 {
+                    let k = near.trailing_zeros();
+                    let shell = shell.as_ref()[k as usize].whole_part().clamp(0, SHELLS as i64 - 1);
+                    pairs[shell as usize].push([body as u32, start as u32 + k]);
+                    near &= near - 1;
+                }
             }
             start += L::WIDTH;
         }
@@ -203,9 +220,11 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         for (feature, near) in features.iter().zip(&mut chunk.at_feature) {
             // Chunks start at multiples of every width.
             for start in chunk.bodies.clone().step_by(L::WIDTH) {
-                let center = self.position.map(|column| L::load(&column[start..]));
+                let [x, y, z] = self.position;
+                let center =
+                    Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]));
                 let radius = self.radius.load::<L>(start);
-                let gap = feature.clearance(Vec3::from(center), radius).gap;
+                let gap = feature.clearance(center, radius).gap;
                 let mut bits = gap.lt(L::splat(self.skin)).bits();
                 while bits != 0 {
                     let body = start as u32 + bits.trailing_zeros();

@@ -339,7 +339,11 @@ impl<T: Real> Stepped<T> {
         self.state.reorder(order, workers);
         let surveyed = self.state.surveyed(periodic, &self.features, pairs);
         self.broadphase.search::<L>(&surveyed, self.skin, &mut self.candidates, workers);
-        self.travelled = T::ZERO;
+        // Within the step just taken bodies were further apart or nearer by as much.
+        self.travelled = match self.plan.impact {
+            Impact::EndOfStep => T::ZERO,
+            Impact::SubStep => travel,
+        };
     }
 }
 

@@ -1,7 +1,7 @@
 //! Impact: the impulses of contacts that share no body.
 
 use super::contacts::Contact;
-use super::narrow::{gather, offset};
+use super::narrow::{WIDEST, gather, offset};
 use super::path::Path;
 use super::state::State;
 use crate::bodies::{Figure, PerBody, Same};
@@ -55,9 +55,6 @@ pub(super) struct Impacts<S> {
     /// Whether contacts take effect at their own time, not at the step's end.
     pub within_step: bool,
 }
-
-/// Most lanes of a pack.
-const WIDEST: usize = 16;
 
 /// The places of up to a pack's bodies, and their indices in the scene.
 struct Places {
@@ -245,12 +242,11 @@ fn write<L: Lane>(
     a: Party<L>,
     b: Party<L>,
 ) {
-    let lanes = |v: Vec3<L>| v.to_array().map(L::to_array);
     let collided = impulse.approaching.bits();
-    let offset = lanes(offset);
-    let (normal, tangential) = (lanes(impulse.normal), lanes(impulse.tangential));
-    let (a_velocity, a_spin) = (lanes(a.velocity), lanes(a.spin));
-    let (b_velocity, b_spin) = (lanes(b.velocity), lanes(b.spin));
+    let offset = offset.to_arrays();
+    let (normal, tangential) = (impulse.normal.to_arrays(), impulse.tangential.to_arrays());
+    let (a_velocity, a_spin) = (a.velocity.to_arrays(), a.spin.to_arrays());
+    let (b_velocity, b_spin) = (b.velocity.to_arrays(), b.spin.to_arrays());
     for (k, outcome) in outcomes.iter_mut().enumerate() {
         let lane = |v: &[L::Array; 3]| {
             Vec3::new(v[0].as_ref()[k], v[1].as_ref()[k], v[2].as_ref()[k])

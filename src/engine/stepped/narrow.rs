@@ -4,12 +4,15 @@ use super::contacts::{Contact, Rank};
 use super::path::Path;
 use super::state::State;
 use crate::bodies::Figure;
-use crate::broadphase::PairList;
+use crate::broadphase::Pair;
 use crate::contact::past_contact;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::surroundings::{Feature, Space};
 use crate::vec3::Vec3;
+
+/// The widest lane.
+pub(super) const WIDEST: usize = 16;
 
 /// How contacts are told at the end of a step of flight.
 pub(super) trait Detection<T: Real>: Copy + Send + Sync {
@@ -132,7 +135,7 @@ pub(super) fn touching_pairs<L, T, D, R, S>(
     detection: D,
     radius: R,
     space: S,
-    pairs: &PairList,
+    pairs: &[Pair],
     found: &mut Vec<Contact<T>>,
 ) where
     L: Lane<Scalar = T>,
@@ -141,11 +144,9 @@ pub(super) fn touching_pairs<L, T, D, R, S>(
     R: Figure<T>,
     S: Space<T>,
 {
-    let whole = pairs.a.len() - pairs.a.len() % L::WIDTH;
-    let (a, a_tail) = pairs.a.split_at(whole);
-    let (b, b_tail) = pairs.b.split_at(whole);
-    sweep_pairs::<L, _, _, _, _>(state, detection, radius, space, (a, b), found);
-    sweep_pairs::<T, _, _, _, _>(state, detection, radius, space, (a_tail, b_tail), found);
+    let (whole, tail) = pairs.split_at(pairs.len() - pairs.len() % L::WIDTH);
+    sweep_pairs::<L, _, _, _, _>(state, detection, radius, space, whole, found);
+    sweep_pairs::<T, _, _, _, _>(state, detection, radius, space, tail, found);
 }
 
 /// Whole packs of pairs; not inlined, since every width has the same tail.
@@ -155,7 +156,7 @@ fn sweep_pairs<L, T, D, R, S>(
     detection: D,
     radius: R,
     space: S,
-    (a, b): (&[u32], &[u32]),
+    pairs: &[Pair],
     found: &mut Vec<Contact<T>>,
 ) where
     L: Lane<Scalar = T>,
@@ -164,8 +165,12 @@ fn sweep_pairs<L, T, D, R, S>(
     R: Figure<T>,
     S: Space<T>,
 {
-    for (a, b) in a.chunks_exact(L::WIDTH).zip(b.chunks_exact(L::WIDTH)) {
-        let (touching, ago) = detection.pairs::<L, R, S>(state, radius, space, a, b);
+    for pairs in pairs.chunks_exact(L::WIDTH) {
+        let (mut a, mut b) = ([0; WIDEST], [0; WIDEST]);
+        for (k, pair) in pairs.iter().enumerate() {
+            [a[k], b[k]] = *pair;
+        }
+        let (touching, ago) = detection.pairs::<L, R, S>(state, radius, space, &a, &b);
         push(touching, ago, found, |k| in_order(state, a[k], b[k]));
     }
 }

@@ -7,7 +7,7 @@ use super::record::Record;
 use super::state::put;
 use super::{Stepped, in_lanes};
 use crate::bodies::{Figure, PerBody, Same, at};
-use crate::broadphase::{Chunk, PairList};
+use crate::broadphase::{Candidates, Chunk, Pair};
 use crate::engine::{Event, Impact, Partner};
 use crate::lane::Lane;
 use crate::real::Real;
@@ -68,13 +68,18 @@ impl<T: Real> Stepped<T> {
         chunk: &Chunk,
         found: &mut Vec<Contact<T>>,
     ) {
-        let (state, pairs) = (&self.state, &chunk.pairs);
-        match self.periodic {
-            None => {
-                touching_pairs::<L, _, _, _, _>(state, detection, radius, OpenSpace, pairs, found);
-            }
-            Some(space) => {
-                touching_pairs::<L, _, _, _, _>(state, detection, radius, space, pairs, found);
+        let state = &self.state;
+        let shells = Candidates::shells_within(self.travelled + self.travelled, self.skin);
+        for pairs in &chunk.pairs[..shells] {
+            match self.periodic {
+                None => {
+                    touching_pairs::<L, _, _, _, _>(
+                        state, detection, radius, OpenSpace, pairs, found,
+                    );
+                }
+                Some(space) => {
+                    touching_pairs::<L, _, _, _, _>(state, detection, radius, space, pairs, found);
+                }
             }
         }
         for (number, (feature, near)) in self.features.iter().zip(&chunk.at_feature).enumerate() {
@@ -283,17 +288,12 @@ impl<T: Real> Stepped<T> {
         let within = WithinStep { path: self.path, sweep: self.travelled + self.travelled };
         let mut found = Vec::new();
         for chunk in &self.candidates.chunks {
-            let mut near = Chunk {
-                bodies: 0..0,
-                pairs: PairList::default(),
-                at_feature: vec![Vec::new(); self.features.len()],
-            };
-            for (&a, &b) in chunk.pairs.a.iter().zip(&chunk.pairs.b) {
-                if rounds.is_struck(a) || rounds.is_struck(b) {
-                    near.pairs.a.push(a);
-                    near.pairs.b.push(b);
-                }
+            let mut near = Chunk::default();
+            for (near, pairs) in near.pairs.iter_mut().zip(&chunk.pairs) {
+                let is_struck = |&&[a, b]: &&Pair| rounds.is_struck(a) || rounds.is_struck(b);
+                near.extend(pairs.iter().filter(is_struck));
             }
+            near.at_feature.resize_with(self.features.len(), Vec::new);
             for (near, bodies) in near.at_feature.iter_mut().zip(&chunk.at_feature) {
                 near.extend(bodies.iter().filter(|&&body| rounds.is_struck(body)));
             }
