@@ -8,5 +8,6 @@ pub mod lane;
 pub mod mat3;
 pub mod motion;
 pub mod real;
+pub mod scene;
 pub mod surroundings;
 pub mod vec3;
