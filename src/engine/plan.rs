@@ -121,10 +121,7 @@ impl fmt::Display for Plan {
         };
         row("engine", "stepped")?;
         row("bodies", &format!("{} in {}", self.bodies, self.precision))?;
-        row(
-            "lanes",
-            &format!("{} in sweeps, {} in gathers", self.sweep_lanes, self.gather_lanes),
-        )?;
+        row("lanes", &format!("{} in sweeps, {} in gathers", self.sweep_lanes, self.gather_lanes))?;
         row("threads", &self.threads.to_string())?;
         row(
             "flight",

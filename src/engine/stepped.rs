@@ -311,8 +311,12 @@ impl<T: Real> Stepped<T> {
             let position = position.each_mut().map(|column| &mut **column);
             let velocity = velocity.each_mut().map(|column| &mut **column);
             *fastest = match periodic {
-                None => fly_chunk::<L, _>(integrator, position, velocity, acceleration, dt, OpenSpace),
-                Some(space) => fly_chunk::<L, _>(integrator, position, velocity, acceleration, dt, space),
+                None => {
+                    fly_chunk::<L, _>(integrator, position, velocity, acceleration, dt, OpenSpace)
+                }
+                Some(space) => {
+                    fly_chunk::<L, _>(integrator, position, velocity, acceleration, dt, space)
+                }
             };
         });
         let fastest = chunks.iter().fold(T::ZERO, |most, chunk| chunk.2.greater(most));

@@ -191,11 +191,8 @@ impl<S> Impacts<S> {
         let impulse = collide::<L, ROUGH>(arm, &mut a, &mut Party::immovable());
         if self.within_step {
             // The rest of the step adds what the field does, as it did before.
-            a.velocity = Vec3::select(
-                impulse.approaching,
-                at_end + (a.velocity - at_contact),
-                at_end,
-            );
+            a.velocity =
+                Vec3::select(impulse.approaching, at_end + (a.velocity - at_contact), at_end);
         }
         write(outcomes, arm, impulse, a, Party::immovable());
     }
@@ -248,9 +245,8 @@ fn write<L: Lane>(
     let (a_velocity, a_spin) = (a.velocity.to_arrays(), a.spin.to_arrays());
     let (b_velocity, b_spin) = (b.velocity.to_arrays(), b.spin.to_arrays());
     for (k, outcome) in outcomes.iter_mut().enumerate() {
-        let lane = |v: &[L::Array; 3]| {
-            Vec3::new(v[0].as_ref()[k], v[1].as_ref()[k], v[2].as_ref()[k])
-        };
+        let lane =
+            |v: &[L::Array; 3]| Vec3::new(v[0].as_ref()[k], v[1].as_ref()[k], v[2].as_ref()[k]);
         *outcome = Outcome {
             collided: collided >> k & 1 != 0,
             offset: lane(&offset),

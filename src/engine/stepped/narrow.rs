@@ -102,8 +102,7 @@ impl<T: Real> Detection<T> for WithinStep<T> {
         let is_within = contact.ago.ge(L::ZERO) & contact.ago.le(L::splat(self.path.duration));
         let met_within = contact.met & is_within;
         // What an earlier step has left overlapping collides now if it approaches.
-        let is_left_over =
-            distance_squared.le(reach * reach) & relative.dot(offset).lt(L::ZERO);
+        let is_left_over = distance_squared.le(reach * reach) & relative.dot(offset).lt(L::ZERO);
         (met_within | is_left_over, L::select(met_within, contact.ago, L::ZERO))
     }
 

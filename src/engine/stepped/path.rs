@@ -26,12 +26,7 @@ const MOST_NEWTON_STEPS: usize = 12;
 impl<T: Real> Path<T> {
     /// The paths of steps of a length. Contacts at the end of a step have no
     /// use for the path that leads there.
-    pub fn new(
-        integrator: Integrator,
-        impact: Impact,
-        acceleration: Vec3<T>,
-        duration: T,
-    ) -> Self {
+    pub fn new(integrator: Integrator, impact: Impact, acceleration: Vec3<T>, duration: T) -> Self {
         let still = Vec3::ZERO;
         let (lag, bend) = match (impact, integrator) {
             (Impact::EndOfStep, _) | (_, Integrator::SemiImplicitEuler) => (still, still),

@@ -134,10 +134,7 @@ impl<T: Real> Stepped<T> {
             for contacts in kinds {
                 let (outcomes, others) = core::mem::take(&mut rest).split_at_mut(contacts.len());
                 rest = others;
-                in_lanes!(
-                    plan.gather_lanes,
-                    self.impulses_of_kind::<T>(contacts, outcomes)
-                );
+                in_lanes!(plan.gather_lanes, self.impulses_of_kind::<T>(contacts, outcomes));
             }
         });
     }
@@ -304,4 +301,3 @@ impl<T: Real> Stepped<T> {
         waiting.sort_unstable_by(Contact::order);
     }
 }
-
