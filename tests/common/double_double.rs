@@ -1,0 +1,228 @@
+//! A number with 105 digits as a precision of carom: it proves that [`Real`]
+//! asks for little, and gives reference solutions.
+
+use core::cmp::Ordering;
+use core::fmt;
+use core::ops::{Add, Div, Mul, Neg, Rem, Sub};
+use std::sync::LazyLock;
+
+use carom::lane::Lane;
+use carom::real::Real;
+use faer::fx128;
+use num_traits::{Num, One, Zero};
+
+/// An unevaluated sum of two `f64`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoubleDouble(pub fx128);
+
+impl DoubleDouble {
+    /// `high + low`, where `low` is no more than half a unit in the last place
+    /// of `high`.
+    pub const fn new(high: f64, low: f64) -> Self {
+        Self(fx128 { 0: high, 1: low })
+    }
+}
+
+macro_rules! operations {
+    ($($trait:ident::$method:ident = $apply:expr),*) => {$(
+        impl $trait for DoubleDouble {
+            type Output = Self;
+
+            fn $method(self, other: Self) -> Self {
+                let apply: fn(fx128, fx128) -> fx128 = $apply;
+                Self(apply(self.0, other.0))
+            }
+        }
+    )*};
+}
+
+// The operators of `fx128` add by an estimate that is no good for a difference
+// of almost equal numbers.
+operations!(
+    Add::add = fx128::add_accurate,
+    Sub::sub = fx128::sub_accurate,
+    Mul::mul = fx128::mul,
+    Div::div = fx128::div,
+    Rem::rem = |a, b| a % b
+);
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl PartialOrd for DoubleDouble {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.partial_cmp(other.0)
+    }
+}
+
+impl fmt::Display for DoubleDouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{:+}", self.0.0, self.0.1)
+    }
+}
+
+impl fmt::LowerExp for DoubleDouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:e}{:+e}", self.0.0, self.0.1)
+    }
+}
+
+impl Zero for DoubleDouble {
+    fn zero() -> Self {
+        Self::ZERO
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == Self::ZERO
+    }
+}
+
+impl One for DoubleDouble {
+    fn one() -> Self {
+        Self::ONE
+    }
+}
+
+impl Num for DoubleDouble {
+    type FromStrRadixErr = <fx128 as Num>::FromStrRadixErr;
+
+    fn from_str_radix(text: &str, radix: u32) -> Result<Self, Self::FromStrRadixErr> {
+        fx128::from_str_radix(text, radix).map(Self)
+    }
+}
+
+impl Lane for DoubleDouble {
+    type Scalar = Self;
+    type Mask = bool;
+    type Array = [Self; 1];
+
+    const WIDTH: usize = 1;
+    const ZERO: Self = Self::new(0.0, 0.0);
+    const ONE: Self = Self::new(1.0, 0.0);
+
+    fn splat(value: Self) -> Self {
+        value
+    }
+
+    fn from_array([value]: [Self; 1]) -> Self {
+        value
+    }
+
+    fn to_array(self) -> [Self; 1] {
+        [self]
+    }
+
+    fn arrays(column: &[Self]) -> (&[[Self; 1]], &[Self]) {
+        column.as_chunks()
+    }
+
+    fn arrays_mut(column: &mut [Self]) -> (&mut [[Self; 1]], &mut [Self]) {
+        column.as_chunks_mut()
+    }
+
+    fn from_fn(mut value: impl FnMut(usize) -> Self) -> Self {
+        value(0)
+    }
+
+    fn sqrt(self) -> Self {
+        if self == Self::ZERO { self } else { Self(self.0.sqrt()) }
+    }
+
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+
+    fn same(self, other: Self) -> bool {
+        self == other
+    }
+
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+
+    // A great number added and taken off again leaves the fraction in the low
+    // half.
+    fn nearest_whole(self) -> Self {
+        let fx128 { 0: high, 1: low } = self.0;
+        let whole = high.round_ties_even();
+        if whole == high {
+            Self::new(high, 0.0) + Self::new(low.round_ties_even(), 0.0)
+        } else if (high - whole).abs() == 0.5 && low != 0.0 {
+            Self::new(high + 0.5_f64.copysign(low), 0.0)
+        } else {
+            Self::new(whole, 0.0)
+        }
+    }
+}
+
+impl Real for DoubleDouble {
+    type Pack4 = Self;
+    type Pack8 = Self;
+    type Pack16 = Self;
+    type Block = Self;
+
+    const NAME: &'static str = "double-double";
+    const EPSILON: Self = Self::new(f64::EPSILON * f64::EPSILON, 0.0);
+    const ROUNDING_MAGIC: Self = Self::ZERO;
+    const WHOLE_FROM: Self = Self::new(1.0 / (f64::EPSILON * f64::EPSILON), 0.0);
+    const SPLITTER: Self = Self::ONE;
+    const QUARTER_TURNS_TOLD: Self = Self::new((1_u64 << 47) as f64, 0.0);
+    const QUARTER_TURN: [Self; 3] = [
+        Self::new(core::f64::consts::FRAC_PI_2, 0.0),
+        Self::new(6.123233995736766e-17, 0.0),
+        Self::new(-1.4973849048591698e-33, 5.562271104316826e-50),
+    ];
+
+    fn inverse_factorials() -> &'static [Self] {
+        static TABLE: LazyLock<[DoubleDouble; 30]> = LazyLock::new(|| {
+            let mut factorial = DoubleDouble::ONE;
+            core::array::from_fn(|n| {
+                factorial = factorial * DoubleDouble::whole(n.max(1) as i32);
+                DoubleDouble::ONE / factorial
+            })
+        });
+        &*TABLE
+    }
+
+    fn whole(value: i32) -> Self {
+        Self::from_f64(f64::from(value))
+    }
+
+    fn from_f64(value: f64) -> Self {
+        Self::new(value, 0.0)
+    }
+
+    fn to_f64(self) -> f64 {
+        self.0.0
+    }
+
+    fn flat(blocks: &[Self]) -> &[Self] {
+        blocks
+    }
+
+    fn flat_mut(blocks: &mut [Self]) -> &mut [Self] {
+        blocks
+    }
+
+    fn block(value: Self) -> Self {
+        value
+    }
+
+    fn write_bits(self, bytes: &mut Vec<u8>) {
+        bytes.extend_from_slice(&self.0.0.to_le_bytes());
+        bytes.extend_from_slice(&self.0.1.to_le_bytes());
+    }
+}

@@ -1,0 +1,121 @@
+//! Golden hashes: the same bits on every machine and for every instruction set.
+//!
+//! Each entry hashes what a piece of the crate makes of a fixed pseudo-random
+//! input. The constants come from a baseline x86-64 build; this test must pass
+//! wherever the crate is built. For other instruction sets of one machine:
+//!
+//! ```sh
+//! RUSTFLAGS="-C target-cpu=x86-64" cargo test --target-dir target/x86-64 --test golden --test lanes
+//! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo test --target-dir target/x86-64-v3 --test golden --test lanes
+//! ```
+//!
+//! A new entry: a function that returns a hash, and a line in the table with 0.
+//! The failing test prints the line as it should be.
+
+mod common;
+
+use carom::lane::Lane;
+use carom::motion::Integrator;
+use carom::motion::flight::Unbounded;
+use carom::motion::rotation::reference_rotation;
+use carom::motion::turning::turn;
+use carom::real::Real;
+use carom::trigonometry::sin_cos;
+use carom::vec3::Vec3;
+use common::numbers::{Random, hash};
+
+/// Name, what is computed now, and the hash that it must have.
+type Entry = (&'static str, fn() -> u64, u64);
+
+const GOLDEN: &[Entry] = &[
+    ("arithmetic f32", arithmetic::<f32>, 0xd930_9894_71e0_7f38),
+    ("arithmetic f64", arithmetic::<f64>, 0x81ee_554d_ba77_378d),
+    ("sine and cosine f32", sines::<f32>, 0xda10_8ec6_6226_4c2a),
+    ("sine and cosine f64", sines::<f64>, 0xa2ec_dbad_0586_d241),
+    ("reference rotation f32", reference_rotations::<f32>, 0x04b6_ccea_dcb1_1941),
+    ("reference rotation f64", reference_rotations::<f64>, 0x7473_9414_0165_f47f),
+    ("turning f32", turning::<f32>, 0x578f_dd49_204a_7f67),
+    ("turning f64", turning::<f64>, 0xdfe2_fbb4_51b0_6695),
+    ("flight f32", flights::<f32>, 0x58b9_50ff_4b45_5fcb),
+    ("flight f64", flights::<f64>, 0xefa4_71d9_b3c9_6153),
+];
+
+#[test]
+fn hashes_are_golden() {
+    let mut changed = String::new();
+    for &(name, compute, golden) in GOLDEN {
+        let found = compute();
+        if found != golden {
+            changed += &format!("    (\"{name}\", …, {found:#x}), // not {golden:#x}\n");
+        }
+    }
+    assert!(changed.is_empty(), "other bits than golden:\n{changed}");
+}
+
+/// How many values of each kind go into a hash; no multiple of a lane's width.
+const COUNT: usize = 10_007;
+
+/// A column of pseudo-random numbers in [-1, 1).
+fn column<T: Real>(random: &mut Random) -> Vec<T> {
+    (0..COUNT).map(|_| random.unit()).collect()
+}
+
+fn arithmetic<T: Real>() -> u64 {
+    let mut random = Random(1);
+    hash((0..COUNT).flat_map(|_| {
+        let (a, b): (T, T) = (random.magnitude(-8, 9), random.magnitude(-8, 9));
+        [a + b, a - b, a * b, a / b, a.abs().sqrt(), a.nearest_whole(), a.lesser(b)]
+    }))
+}
+
+fn sines<T: Real>() -> u64 {
+    let mut random = Random(2);
+    hash((0..COUNT).flat_map(|_| {
+        let (sine, cosine) = sin_cos::<T>(random.magnitude(-8, 12));
+        [sine, cosine]
+    }))
+}
+
+fn reference_rotations<T: Real>() -> u64 {
+    let mut random = Random(3);
+    hash((0..COUNT).flat_map(|_| {
+        let time: T = random.magnitude(-4, 4);
+        reference_rotation(random.vector(), time).rows()
+    }))
+}
+
+fn turning<T: Real>() -> u64 {
+    let mut random = Random(4);
+    let spin: [Vec<T>; 3] = core::array::from_fn(|_| column(&mut random));
+    let zero = vec![T::ZERO; COUNT];
+    let mut rows: [Vec<T>; 9] =
+        core::array::from_fn(|k| if k % 4 == 0 { vec![T::ONE; COUNT] } else { zero.clone() });
+    for time in [T::ratio(1, 100), T::ONE, T::whole(1000)] {
+        turn::<T::Pack8>(
+            rows.each_mut().map(Vec::as_mut_slice),
+            spin.each_ref().map(Vec::as_slice),
+            time,
+        );
+    }
+    hash(rows.into_iter().flatten())
+}
+
+fn flights<T: Real>() -> u64 {
+    let mut random = Random(5);
+    let mut position: [Vec<T>; 3] = core::array::from_fn(|_| column(&mut random));
+    let mut velocity: [Vec<T>; 3] = core::array::from_fn(|_| column(&mut random));
+    for integrator in
+        [Integrator::SemiImplicitEuler, Integrator::ExplicitEuler, Integrator::VelocityVerlet]
+    {
+        for field in [None, Some(Vec3::new(T::ratio(1, 3), T::ZERO, T::whole(-10)))] {
+            integrator.flight::<T::Pack16, _>(
+                position.each_mut().map(Vec::as_mut_slice),
+                velocity.each_mut().map(Vec::as_mut_slice),
+                field,
+                T::ratio(1, 100),
+                &Unbounded,
+            );
+        }
+    }
+    hash(position.into_iter().chain(velocity).flatten())
+}
