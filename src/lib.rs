@@ -8,6 +8,7 @@ pub mod lane;
 pub mod mat3;
 pub mod motion;
 pub mod observe;
+pub mod output;
 pub mod real;
 pub mod surroundings;
 pub mod vec3;

@@ -40,8 +40,7 @@ pub fn state_hash<T: Real>(bodies: &Bodies<T>) -> StateHash {
     let mut hasher = Xxh3Default::new();
     let mut bytes = Vec::new();
     for index in 0..bodies.len() {
-        let vectors =
-            [bodies.position_of(index), bodies.velocity_of(index), bodies.spin_of(index)];
+        let vectors = [bodies.position_of(index), bodies.velocity_of(index), bodies.spin_of(index)];
         for value in vectors.into_iter().flat_map(|vector| vector.to_array()) {
             value.write_bits(&mut bytes);
         }
