@@ -74,15 +74,15 @@ impl<W: io::Write> EventWriter<W> {
     fn write<T: Real>(&mut self, event: &Event<T>) -> io::Result<()> {
         let row = &mut self.row;
         row.numbers([event.time]);
-        row.whole(event.a);
+        row.shown(event.a);
         match event.partner {
             Partner::Body { index, .. } => {
-                row.whole(index);
+                row.shown(index);
                 row.empty(1);
             }
             Partner::Surroundings(index) => {
                 row.empty(1);
-                row.whole(index);
+                row.shown(index);
             }
         }
         row.numbers(event.point.to_array());

@@ -46,7 +46,7 @@ pub fn write_state<T: Real, W: io::Write>(output: W, bodies: &Bodies<T>) -> io::
     writer.write_record(STATE_COLUMNS).map_err(as_io)?;
     let mut row = Row::default();
     for index in 0..bodies.len() {
-        row.whole(index);
+        row.shown(index);
         row.numbers(bodies.position_of(index).to_array());
         row.numbers(bodies.velocity_of(index).to_array());
         row.numbers(bodies.spin_of(index).to_array());

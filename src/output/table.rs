@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(grouped(1_234_567), "1,234,567");
         assert_eq!(counted(1, "step"), "1 step");
         assert_eq!(counted(2000, "step"), "2,000 steps");
-        let said = [0.0, 0.0123, 0.5, 16.14, 999.4, 999.6, 12_345.0, 999_999.0, 4.135e6, 2e12];
+        let said = [0.0, 0.0123, 0.5, 16.14, 999.4, 999.6, 12_345.0, 999_999.0, 4.136e6, 2e12];
         let words = said.map(rounded);
         let expected = [
             "0.00",
