@@ -10,5 +10,6 @@ pub mod motion;
 pub mod observe;
 pub mod output;
 pub mod real;
+pub mod scene;
 pub mod surroundings;
 pub mod vec3;
