@@ -192,6 +192,12 @@ impl OutputFile {
         }
     }
 
+    /// The path as it was given.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Makes an error of writing this file.
     #[must_use]
     pub fn error(&self, source: io::Error) -> OutputError {

@@ -2,21 +2,28 @@
 
 use core::fmt;
 
-use super::summary::Summary;
+use super::summary::{Summary, shortest};
 use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
 use crate::contact::Surface;
 use crate::engine::{EngineKind, Impact};
 use crate::motion::Integrator;
 
+/// The labels of a vector's rows.
+const AXES: [&str; 3] = ["  x", "  y", "  z"];
+
+/// From so many bodies on a temperature says something.
+const A_GAS: usize = 100;
+
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.heading(f)?;
         writeln!(f, "\n{}", self.run())?;
-        writeln!(f, "{}", self.energy_table())?;
-        writeln!(f, "{}", self.momentum_table())?;
-        writeln!(f, "angular momentum about the origin{}", self.what_changes_it())?;
-        writeln!(f, "{}", self.angular_momentum_table())?;
-        let gas = self.gas_table();
+        writeln!(f, "{}", self.conserved())?;
+        let gifts = self.momentum_from();
+        if !gifts.is_empty() {
+            writeln!(f, "{gifts}")?;
+        }
+        let gas = self.gas();
         if !gas.is_empty() {
             writeln!(f, "{gas}")?;
         }
@@ -40,7 +47,7 @@ impl Summary {
         let mut line = |label: &str, text: String| table.row(label, [text]);
         line("  engine", self.engine_words());
         let steps = counted(self.steps, "step");
-        line("  time", format!("{} in {steps} of {}", plain(self.time), plain(self.setup.dt)));
+        line("  time", format!("{} in {steps} of {}", self.time_words(), plain(self.setup.dt)));
         line(
             "  collisions",
             format!(
@@ -58,16 +65,21 @@ impl Summary {
                 counted(self.setup.lanes as u64, "lane")
             ),
         );
-        let nanoseconds = 1e9 * self.wall_seconds / (self.setup.bodies as f64 * self.steps as f64);
-        line(
-            "  speed",
-            format!(
-                "{} ns per body and step, {} collisions per second",
-                rounded(nanoseconds),
-                rounded(self.collisions_per_second)
-            ),
-        );
+        let nanoseconds = 1e9 / self.body_steps_per_second;
+        let mut speed = format!("{} ns per body and step", rounded(nanoseconds));
+        if self.collisions_per_second > 0.0 {
+            speed += &format!(", {} collisions per second", rounded(self.collisions_per_second));
+        }
+        line("  speed", speed);
         table
+    }
+
+    /// The time, in digits of the run's own precision.
+    fn time_words(&self) -> String {
+        match self.setup.precision {
+            "f32" => plain(shortest(self.time as f32)),
+            _ => plain(self.time),
+        }
     }
 
     fn engine_words(&self) -> String {
@@ -88,18 +100,19 @@ impl Summary {
         }
     }
 
-    fn energy_table(&self) -> Table {
+    fn conserved(&self) -> Table {
         let energy = &self.energy;
         let (before, after) = (&energy.initial_parts, &energy.parts);
         let mut table = Table::default();
-        table.row("energy", ["initial", "final", "change"].map(str::to_owned));
-        let mut part = |label: &str, initial: f64, end: f64| {
+        table.row("", ["initial", "final", "change"].map(str::to_owned));
+        table.row("energy", []);
+        let mut row = |label: &str, initial: f64, end: f64| {
             table.row(label, [digits(initial), digits(end), difference(end - initial)]);
         };
-        part("  translational", before.translational, after.translational);
-        part("  rotational", before.rotational, after.rotational);
-        part("  potential", before.potential, after.potential);
-        part("  total", energy.initial, energy.end);
+        row("  translational", before.translational, after.translational);
+        row("  rotational", before.rotational, after.rotational);
+        row("  potential", before.potential, after.potential);
+        row("  total", energy.initial, energy.end);
         let mut note = |label: &str, value: f64| {
             table.row(label, [String::new(), String::new(), difference(value)]);
         };
@@ -109,52 +122,49 @@ impl Summary {
             note("  by integrator", drift);
             note("  unaccounted", (energy.end - energy.initial) - drift);
         }
+        let (momentum, angular) = (&self.momentum, &self.angular_momentum);
+        for (label, initial, end) in [
+            ("momentum", momentum.initial, momentum.end),
+            ("angular momentum about the origin", angular.initial, angular.end),
+        ] {
+            table.row(label, []);
+            for (axis, (initial, end)) in AXES.iter().zip(initial.into_iter().zip(end)) {
+                table.row(axis, [digits(initial), digits(end), difference(end - initial)]);
+            }
+        }
         table
     }
 
-    fn momentum_table(&self) -> Table {
-        let momentum = &self.momentum;
+    /// Who gave the momentum that was not there at the start.
+    fn momentum_from(&self) -> Table {
         let mut table = Table::default();
-        table.row("momentum", ["x", "y", "z"].map(str::to_owned));
-        table.row("  initial", momentum.initial.map(digits));
+        let momentum = &self.momentum;
+        let mut givers = Vec::new();
         if self.setup.fixed_parts > 0 {
-            table.row("  surroundings", momentum.from_surroundings.map(digits));
+            givers.push(("surroundings", momentum.from_surroundings));
         }
         if self.setup.gravity != [0.0; 3] {
-            table.row("  gravity", momentum.from_gravity.map(digits));
+            givers.push(("gravity", momentum.from_gravity));
         }
-        table.row("  final", momentum.end.map(digits));
-        table.row("  unaccounted", momentum.balance_error.map(difference));
+        if givers.is_empty() {
+            return table;
+        }
+        let names = givers.iter().map(|(name, _)| (*name).to_owned());
+        table.row("momentum from", names.chain(["unaccounted".to_owned()]));
+        for (k, axis) in AXES.iter().enumerate() {
+            let given = givers.iter().map(|(_, given)| digits(given[k]));
+            table.row(axis, given.chain([difference(momentum.balance_error[k])]));
+        }
         table
     }
 
-    fn angular_momentum_table(&self) -> Table {
-        let mut table = Table::default();
-        table.row("", ["x", "y", "z"].map(str::to_owned));
-        table.row("  initial", self.angular_momentum.initial.map(digits));
-        table.row("  final", self.angular_momentum.end.map(digits));
-        let (initial, end) = (self.angular_momentum.initial, self.angular_momentum.end);
-        table.row("  change", core::array::from_fn::<_, 3, _>(|k| difference(end[k] - initial[k])));
-        table
-    }
-
-    fn what_changes_it(&self) -> &'static str {
-        match (self.setup.periodic, self.setup.fixed_parts > 0, self.setup.gravity != [0.0; 3]) {
-            (true, _, _) => " (coming back at the other side of the box changes it)",
-            (false, true, true) => " (surroundings and gravity change it)",
-            (false, true, false) => " (surroundings change it)",
-            (false, false, true) => " (gravity changes it)",
-            (false, false, false) => "",
-        }
-    }
-
-    fn gas_table(&self) -> Table {
+    fn gas(&self) -> Table {
         let mut table = Table::of_texts();
         if let (Some(factor), Some(rate)) = (self.compressibility, self.collision_rate) {
             table.row("compressibility", [digits(factor)]);
             table.row("collision rate", [format!("{} per body and time", digits(rate))]);
         }
-        if let Some(temperature) = self.temperature {
+        if let Some(temperature) = self.temperature.filter(|_| self.setup.bodies >= A_GAS) {
             table.row("temperature", [format!("{temperature}")]);
         }
         table

@@ -7,9 +7,10 @@ use crate::engine::{Collisions, EngineKind, Impact};
 use crate::motion::Integrator;
 use crate::observe::{
     AngularMomentum, Energy, Momentum, StateHash, Temperature, Totals, collision_rate,
-    compressibility, integrator_drift,
+    compressibility, integrator_drift, total_mass,
 };
 use crate::real::Real;
+use crate::scene::Scene;
 use crate::vec3::Vec3;
 
 /// What was run.
@@ -32,6 +33,7 @@ pub struct Setup {
     /// The surfaces of all bodies.
     pub surface: Surface,
     /// The uniform acceleration, length per time².
+    #[serde(skip)]
     pub gravity: [f64; 3],
     /// How many fixed parts there are.
     pub fixed_parts: usize,
@@ -43,6 +45,29 @@ pub struct Setup {
     pub bodies: usize,
     /// Their mass together.
     pub total_mass: f64,
+}
+
+impl Setup {
+    /// A run of a scene by steps, in one lane on one thread.
+    #[must_use]
+    pub fn of<T: Real>(scene: &Scene<T>) -> Self {
+        Self {
+            scene: scene.name.clone(),
+            precision: T::NAME,
+            lanes: 1,
+            threads: 1,
+            engine: scene.engine,
+            integrator: scene.stepped.integrator,
+            impact: scene.stepped.impact,
+            surface: scene.surface,
+            gravity: scene.gravity.to_array().map(T::to_f64),
+            fixed_parts: scene.surroundings.len(),
+            periodic: scene.periodic.is_some(),
+            dt: shortest(T::from_f64(scene.stepped.dt.unwrap_or(0.0))),
+            bodies: scene.bodies.len(),
+            total_mass: total_mass(&scene.bodies),
+        }
+    }
 }
 
 /// What an engine did.

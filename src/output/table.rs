@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-/// Rows of a label and some cells; each column is as wide as its widest cell.
+/// Rows of a label and some cells; each column is as wide as its widest cell. A
+/// label without cells is a heading, and may be wider than its column.
 #[derive(Debug, Default)]
 pub(super) struct Table {
     rows: Vec<(String, Vec<String>)>,
@@ -27,7 +28,8 @@ impl Table {
     }
 
     fn label_width(&self) -> usize {
-        self.rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0)
+        let labels = self.rows.iter().filter(|(_, cells)| !cells.is_empty());
+        labels.map(|(label, _)| label.chars().count()).max().unwrap_or(0)
     }
 
     fn cell_width(&self, column: usize) -> usize {
