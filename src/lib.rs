@@ -1,7 +1,9 @@
 //! carom simulates rigid spheres in motion.
 
 pub mod bodies;
+mod broadphase;
 pub mod column;
+pub mod compensated;
 pub mod contact;
 pub mod engine;
 pub mod lane;
@@ -12,4 +14,6 @@ pub mod output;
 pub mod real;
 pub mod scene;
 pub mod surroundings;
+pub mod trigonometry;
 pub mod vec3;
+mod workers;

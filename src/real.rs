@@ -37,16 +37,23 @@ pub trait Real:
     /// From here up every number is whole: `2^(digits − 1)`.
     const WHOLE_FROM: Self;
 
-    /// The largest count of quarter turns whose product with each of
-    /// [`QUARTER_TURN`](Real::QUARTER_TURN)'s parts but the last is exact.
-    const QUARTER_TURNS_EXACT: Self;
+    /// Multiplies a number to split it into two halves of its digits:
+    /// `2^⌈digits/2⌉ + 1` (Dekker 1971). 1, which splits nothing, for a number
+    /// that is a sum itself and whose products lose too little to matter.
+    const SPLITTER: Self;
 
-    /// π/2 as a sum of parts, greatest first, all but the last with so few
-    /// digits that a product with a count of quarter turns is exact.
-    const QUARTER_TURN: &'static [Self];
+    /// As many quarter turns as one multiplication `x·2/π` can count to within
+    /// 1/16 of one: `2^(digits − 6)`.
+    const QUARTER_TURNS_TOLD: Self;
 
-    /// `1/n!` for `n` from 0, as many as sine and cosine need on an eighth of a
-    /// turn for an error below a tenth of [`EPSILON`](Real::EPSILON).
+    /// π/2 as a sum of three parts, greatest first: three times the digits of
+    /// one number, which is what the worst cases of argument reduction need.
+    /// Where [`SPLITTER`](Real::SPLITTER) splits nothing, the first two have so
+    /// few digits that a product with a count of quarter turns is exact.
+    const QUARTER_TURN: [Self; 3];
+
+    /// `1/n!` for `n` from 0, as many as sine and cosine need up to 9/16 of a
+    /// quarter turn for an error below a tenth of [`EPSILON`](Real::EPSILON).
     fn inverse_factorials() -> &'static [Self];
 
     /// A whole number.
@@ -57,6 +64,9 @@ pub trait Real:
 
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
+
+    /// The whole part, towards zero; the nearest `i64` if it is out of range.
+    fn whole_part(self) -> i64;
 
     /// The blocks' reals, one after another.
     fn flat(blocks: &[Self::Block]) -> &[Self];
@@ -97,7 +107,7 @@ macro_rules! inverse_factorials {
 
 macro_rules! real {
     ($real:ident, $block:ident, $pack4:ty, $pack8:ty, $pack16:ty, $factorials:literal,
-     $exact:literal, $quarter_turn:expr) => {
+     $splitter:literal, $quarter_turn:expr) => {
         impl Real for $real {
             type Pack4 = $pack4;
             type Pack8 = $pack8;
@@ -108,8 +118,9 @@ macro_rules! real {
             const EPSILON: Self = $real::EPSILON;
             const ROUNDING_MAGIC: Self = 1.5 / $real::EPSILON;
             const WHOLE_FROM: Self = 1.0 / $real::EPSILON;
-            const QUARTER_TURNS_EXACT: Self = $exact;
-            const QUARTER_TURN: &'static [Self] = &$quarter_turn;
+            const SPLITTER: Self = $splitter;
+            const QUARTER_TURNS_TOLD: Self = 1.0 / (32.0 * $real::EPSILON);
+            const QUARTER_TURN: [Self; 3] = $quarter_turn;
 
             #[inline(always)]
             fn inverse_factorials() -> &'static [Self] {
@@ -129,6 +140,11 @@ macro_rules! real {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+
+            #[inline(always)]
+            fn whole_part(self) -> i64 {
+                self as i64
             }
 
             #[inline(always)]
@@ -160,10 +176,9 @@ real!(
     wide::f32x4,
     wide::f32x8,
     wide::f32x16,
-    12,
-    16384.0,
-    // 10 digits each, the last 24.
-    [1.5703125, 4.835_128_8e-4, 3.138_557e-7, 6.070_877e-11, 6.217_249e-14, 6.123_234_3e-17]
+    11,
+    4097.0,
+    [1.570_796_4, -4.371_139e-8, -1.715_124_5e-15]
 );
 
 real!(
@@ -172,8 +187,7 @@ real!(
     wide::f64x4,
     wide::f64x8,
     Twin<wide::f64x8>,
-    20,
-    16777216.0,
-    // 29 digits each, the last 53.
-    [1.570796325802803, 9.920935774287987e-10, 2.2517417706346578e-18, 3.5215598651832e-27]
+    18,
+    134217729.0,
+    [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33]
 );

@@ -1,17 +1,112 @@
 //! Integrators: how a step of free flight on a uniform field is taken.
+//!
+//! All are composed of [`drift`] and [`kick`]; each is a type, so that a sweep
+//! is compiled for it, and [`Integrator`] names it at run time.
 
 use serde::{Deserialize, Serialize};
+
+use crate::lane::Lane;
+use crate::vec3::Vec3;
 
 /// One step of length `Δt` in a uniform acceleration `a`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
-    /// Velocity first: `v += aΔt; c += vΔt`. Each step loses `Δt²|a|²m/2` of
-    /// energy.
+    /// [`SemiImplicitEuler`]: each step loses `Δt²|a|²m/2` of energy.
     #[default]
     SemiImplicitEuler,
-    /// Position first: `c += vΔt; v += aΔt`. Each step gains `Δt²|a|²m/2`.
+    /// [`ExplicitEuler`]: each step gains `Δt²|a|²m/2`.
     ExplicitEuler,
-    /// `c += vΔt + ½aΔt²; v += aΔt`: the exact parabola.
+    /// [`VelocityVerlet`]: the exact parabola.
     VelocityVerlet,
+}
+
+/// Position after flying with constant velocity: `c + vΔt`, length.
+#[inline(always)]
+pub fn drift<L: Lane>(position: Vec3<L>, velocity: Vec3<L>, dt: L) -> Vec3<L> {
+    position + velocity * dt
+}
+
+/// Velocity after a constant acceleration: `v + aΔt`, length per time.
+#[inline(always)]
+pub fn kick<L: Lane>(velocity: Vec3<L>, acceleration: Vec3<L>, dt: L) -> Vec3<L> {
+    velocity + acceleration * dt
+}
+
+/// A step of free flight as a type.
+pub trait FlightStep {
+    /// Whether the step can change a velocity; if not, sweeps store none.
+    const CHANGES_VELOCITY: bool = true;
+
+    /// Position and velocity a time `dt` later. Any sign and size of `dt` is
+    /// valid; each component takes one rounding for each `+` and `×` of the
+    /// formula.
+    fn step<L: Lane>(
+        position: Vec3<L>,
+        velocity: Vec3<L>,
+        acceleration: Vec3<L>,
+        dt: L,
+    ) -> (Vec3<L>, Vec3<L>);
+}
+
+/// No field: `c += vΔt`. The acceleration is not looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Coasting;
+
+impl FlightStep for Coasting {
+    const CHANGES_VELOCITY: bool = false;
+
+    #[inline(always)]
+    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, _: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
+        (drift(c, v, dt), v)
+    }
+}
+
+/// Velocity first: `v += aΔt; c += vΔt`.
+///
+/// On a uniform field `E_n = E_0 − nΔt²|a|²m/2`: the method keeps a neighbour
+/// of the energy exactly (Hairer, Lubich and Wanner, *Geometric Numerical
+/// Integration*, I.1).
+///
+/// ```
+/// use carom::motion::integrator::{FlightStep, SemiImplicitEuler};
+/// use carom::vec3::Vec3;
+/// let gravity = Vec3::new(0.0, 0.0, -10.0);
+/// let (c, v) = SemiImplicitEuler::step(Vec3::ZERO, Vec3::new(1.0, 0.0, 0.0), gravity, 0.5);
+/// assert_eq!(v, Vec3::new(1.0, 0.0, -5.0));
+/// assert_eq!(c, Vec3::new(0.5, 0.0, -2.5));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct SemiImplicitEuler;
+
+impl FlightStep for SemiImplicitEuler {
+    #[inline(always)]
+    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, a: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
+        let v = kick(v, a, dt);
+        (drift(c, v, dt), v)
+    }
+}
+
+/// Position first: `c += vΔt; v += aΔt`.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitEuler;
+
+impl FlightStep for ExplicitEuler {
+    #[inline(always)]
+    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, a: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
+        (drift(c, v, dt), kick(v, a, dt))
+    }
+}
+
+/// `c += vΔt + ½aΔt²; v += aΔt`, as a drift with the mean velocity
+/// `v + ½aΔt`.
+#[derive(Clone, Copy, Debug)]
+pub struct VelocityVerlet;
+
+impl FlightStep for VelocityVerlet {
+    #[inline(always)]
+    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, a: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
+        let mean = kick(v, a, dt * L::ratio(1, 2));
+        (drift(c, mean, dt), kick(v, a, dt))
+    }
 }

@@ -1,0 +1,50 @@
+//! Sweeps of rotation over columns.
+
+use crate::lane::Lane;
+use crate::mat3::Mat3;
+use crate::motion::rotation::turned;
+use crate::motion::sweep::{Arrays, lanes_and_tail};
+use crate::vec3::Vec3;
+
+/// Turns every body's orientation for a time `time` by its angular velocity,
+/// as [`turned`]: whole lanes through `L`, the rest one by one, with the same
+/// bits.
+///
+/// `orientation` as nine columns in row-major order, body axes to world axes;
+/// `spin` in rad per time. As many bodies turn as the shortest column has.
+///
+/// ```
+/// use carom::motion::turning::turn;
+/// let still = [0.0_f32; 5];
+/// let spin = [core::f32::consts::PI; 5];
+/// let mut m = [[1.0_f32; 5], still, still, still, [1.0; 5], still, still, still, [1.0; 5]];
+/// turn::<wide::f32x4>(m.each_mut().map(|column| column.as_mut_slice()), [&still, &still, &spin], 1.0);
+/// // Half a turn about z.
+/// assert!(m[0].iter().all(|xx| (xx + 1.0).abs() < 1e-6));
+/// assert_eq!(m[8], [1.0; 5]);
+/// ```
+pub fn turn<L: Lane>(orientation: [&mut [L::Scalar]; 9], spin: [&[L::Scalar]; 3], time: L::Scalar) {
+    let lengths = orientation.iter().map(|column| column.len());
+    let len = lengths.chain(spin.map(<[L::Scalar]>::len)).min().unwrap_or(0);
+    let (lanes, tail) = lanes_and_tail::<L, 9>(orientation, len);
+    let spin = spin.map(|column| L::arrays(&column[..len]));
+    turn_arrays::<L>(lanes, spin.map(|(lanes, _)| lanes), time);
+    turn_arrays::<L::Scalar>(tail, spin.map(|(_, tail)| L::Scalar::arrays(tail).0), time);
+}
+
+#[inline(always)]
+fn turn_arrays<L: Lane>(orientation: Arrays<L, 9>, spin: [&[L::Array]; 3], time: L::Scalar) {
+    let time = L::splat(time);
+    // As many of each, so that no bound is checked in the loop.
+    let len = spin[0].len();
+    let spin = spin.map(|column| &column[..len]);
+    let orientation = orientation.map(|column| &mut column[..len]);
+    for i in 0..len {
+        let w = Vec3::from(spin.each_ref().map(|column| L::from_array(column[i])));
+        let m = Mat3::from_rows(orientation.each_ref().map(|column| L::from_array(column[i])));
+        let rows = turned(m, w, time).rows();
+        for k in 0..9 {
+            orientation[k][i] = rows[k].to_array();
+        }
+    }
+}
