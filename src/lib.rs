@@ -10,6 +10,7 @@ pub mod lane;
 pub mod mat3;
 pub mod motion;
 pub mod observe;
+pub mod output;
 pub mod real;
 pub mod scene;
 pub mod surroundings;

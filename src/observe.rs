@@ -30,12 +30,14 @@ mod gas;
 mod momentum;
 mod state_hash;
 mod sum;
+mod totals;
 
-pub use energy::Energy;
+pub use energy::{Energy, integrator_drift};
 pub use gas::{Temperature, collision_rate, compressibility};
 pub use momentum::{AngularMomentum, Momentum};
 pub use state_hash::{StateHash, state_hash};
 pub use sum::CompensatedSum;
+pub use totals::Totals;
 
 use crate::bodies::{Bodies, PerBody};
 use crate::real::Real;

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::bodies::Bodies;
+use crate::motion::Integrator;
 use crate::observe::{CompensatedSum, wide};
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -72,6 +73,36 @@ impl Energy {
         let scale = if earlier.total() == 0.0 { self.kinetic() } else { earlier.total().abs() };
         if change == 0.0 { 0.0 } else { change / scale }
     }
+}
+
+/// The energy that an integrator adds to bodies of total mass `mass` in a
+/// uniform field of strength `|a| = acceleration` over `steps` steps of length
+/// `dt`: `∓n Δt² |a|² M / 2`.
+///
+/// It is exact, whatever elastic collisions happen on the way, as long as they
+/// change velocities only, at the ends of steps.
+///
+/// ```
+/// use carom::motion::Integrator;
+/// use carom::observe::integrator_drift;
+/// assert_eq!(integrator_drift(Integrator::SemiImplicitEuler, 8, 0.5, 2.0, 3.0), -12.0);
+/// assert_eq!(integrator_drift(Integrator::VelocityVerlet, 8, 0.5, 2.0, 3.0), 0.0);
+/// ```
+#[must_use]
+pub fn integrator_drift(
+    integrator: Integrator,
+    steps: u64,
+    dt: f64,
+    acceleration: f64,
+    mass: f64,
+) -> f64 {
+    let sign = match integrator {
+        Integrator::SemiImplicitEuler => -1.0,
+        Integrator::ExplicitEuler => 1.0,
+        Integrator::VelocityVerlet => 0.0,
+    };
+    let speed_gained = acceleration * dt;
+    sign * steps as f64 * (speed_gained * speed_gained) * mass / 2.0
 }
 
 impl fmt::Display for Energy {
