@@ -16,7 +16,7 @@ mod common;
 
 use carom::lane::Lane;
 use carom::motion::Integrator;
-use carom::motion::flight::Unbounded;
+use carom::surroundings::OpenSpace;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
 use carom::real::Real;
@@ -113,7 +113,7 @@ fn flights<T: Real>() -> u64 {
                 velocity.each_mut().map(Vec::as_mut_slice),
                 field,
                 T::ratio(1, 100),
-                &Unbounded,
+                OpenSpace,
             );
         }
     }
