@@ -17,7 +17,7 @@ mod order;
 mod skin;
 
 pub use candidates::{Candidates, Chunk, Pair};
-use candidates::{Search, SearchedGrid, shells_per_length};
+use candidates::{Search, SearchedGrid, shell_ends};
 use grid::Grid;
 use order::CellOrder;
 use skin::best_skin;
@@ -157,7 +157,6 @@ impl<T: Real> BroadPhase<T> {
         candidates: &mut Candidates,
         workers: &Workers,
     ) {
-        candidates.begin(surveyed.position[0].len(), surveyed.features.len());
         match (surveyed.radius, surveyed.periodic) {
             (PerBody::Same(r), None) => {
                 self.search_in::<L, _, _>(surveyed, Same(*r), OpenSpace, skin, candidates, workers);
@@ -202,12 +201,13 @@ impl<T: Real> BroadPhase<T> {
     {
         let grids: Vec<_> =
             self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();
+        candidates.begin(&grids, &self.order.starts, surveyed.features.len());
         let search = Search {
             position: [0, 1, 2].map(|axis| surveyed.position[axis].padded()),
             radius,
             space,
             skin,
-            shells_per_length: shells_per_length(skin),
+            shell_ends: shell_ends(skin),
             starts: &self.order.starts,
             grids: &grids,
         };

@@ -13,9 +13,9 @@ use crate::vec3::Vec3;
 const CHUNK: usize = 2048;
 
 /// Into how many shells the skin is cut. A pair need not be tested before its
-/// bodies can have come through the shells between them; 8 spare about half of
-/// all tests, more shells hardly another.
-const SHELLS: usize = 8;
+/// bodies can have come through the shells between them; 4 spare nearly half of
+/// all tests, 8 a twentieth more.
+const SHELLS: usize = 4;
 
 /// The places of two bodies.
 pub type Pair = [u32; 2];
@@ -23,8 +23,11 @@ pub type Pair = [u32; 2];
 /// What one piece of the search has found, for the bodies of one range.
 #[derive(Debug, Default)]
 pub struct Chunk {
-    /// The places of the bodies that were searched for.
-    pub bodies: Range<usize>,
+    /// The grid that was searched, and its cells, by rank.
+    grid: usize,
+    cells: Range<u32>,
+    /// The places of the bodies in these cells.
+    bodies: Range<usize>,
     /// Pairs whose surfaces were nearer than the skin, by the shell that their
     /// gap was in, innermost first.
     pub pairs: [Vec<Pair>; SHELLS],
@@ -40,11 +43,33 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// Empties the lists and cuts `len` bodies into chunks.
-    pub(super) fn begin(&mut self, len: usize, features: usize) {
-        self.chunks.resize_with(len.div_ceil(CHUNK), Chunk::default);
-        for (k, chunk) in self.chunks.iter_mut().enumerate() {
-            chunk.bodies = k * CHUNK..((k + 1) * CHUNK).min(len);
+    /// Empties the lists and cuts the cells into chunks.
+    pub(super) fn begin<T: Real>(
+        &mut self,
+        grids: &[SearchedGrid<T>],
+        starts: &[u32],
+        features: usize,
+    ) {
+        let mut used = 0;
+        for (number, searched) in grids.iter().enumerate() {
+            let place = |rank: u32| starts[(searched.first + rank) as usize] as usize;
+            let all = searched.grid.len() as u32;
+            let bodies = place(all) - place(0);
+            let pieces = bodies.div_ceil(CHUNK) as u32;
+            for piece in 0..pieces {
+                let cut = |k: u32| (u64::from(all) * u64::from(k) / u64::from(pieces)) as u32;
+                if used == self.chunks.len() {
+                    self.chunks.push(Chunk::default());
+                }
+                let chunk = &mut self.chunks[used];
+                chunk.grid = number;
+                chunk.cells = cut(piece)..cut(piece + 1);
+                chunk.bodies = place(chunk.cells.start)..place(chunk.cells.end);
+                used += 1;
+            }
+        }
+        self.chunks.truncate(used);
+        for chunk in &mut self.chunks {
             chunk.pairs.iter_mut().for_each(Vec::clear);
             chunk.at_feature.resize_with(features, Vec::new);
             chunk.at_feature.iter_mut().for_each(Vec::clear);
@@ -60,8 +85,7 @@ impl Candidates {
     /// How many shells are to be tested when two bodies can have come `nearer`
     /// by this much since a search with this skin, lengths.
     pub fn shells_within<T: Real>(nearer: T, skin: T) -> usize {
-        let shell = skin / T::whole(SHELLS as i32);
-        (1..SHELLS).find(|&k| nearer < shell * T::whole(k as i32)).unwrap_or(SHELLS)
+        1 + shell_ends(skin).iter().filter(|&&end| !(nearer < end)).count()
     }
 
     /// The bytes that the lists hold in memory.
@@ -91,39 +115,59 @@ pub(super) struct Search<'a, T, R, S> {
     pub radius: R,
     pub space: S,
     pub skin: T,
-    pub shells_per_length: T,
+    pub shell_ends: [T; SHELLS - 1],
     pub starts: &'a [u32],
     /// Coarsest first; the bodies of each stand behind those of the one before.
     pub grids: &'a [SearchedGrid<T>],
 }
 
-/// Shells in a length when the skin is cut into all of them.
-pub(super) fn shells_per_length<T: Real>(skin: T) -> T {
-    T::whole(SHELLS as i32) / skin
+/// The greatest gaps of all shells of a skin but the last, lengths.
+pub(super) fn shell_ends<T: Real>(skin: T) -> [T; SHELLS - 1] {
+    let shell = skin / T::whole(SHELLS as i32);
+    core::array::from_fn(|k| shell * T::whole(k as i32 + 1))
+}
+
+/// The runs of places around a cell: of nine rows, each two at most.
+#[derive(Default)]
+struct NearPlaces {
+    all: [Range<u32>; 18],
+    count: usize,
+}
+
+impl NearPlaces {
+    #[inline(always)]
+    fn push(&mut self, run: Range<u32>) {
+        if !run.is_empty() {
+            self.all[self.count] = run;
+            self.count += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn runs(&self) -> &[Range<u32>] {
+        &self.all[..self.count]
+    }
 }
 
 impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
-    /// Finds the pairs of the chunk's bodies: with bodies of the same grid at
-    /// later places, and with bodies of the coarser grids.
+    /// Finds the pairs of the bodies in the chunk's cells: with bodies of the
+    /// same grid at later places, and with bodies of the coarser grids.
     pub fn pairs<L: Lane<Scalar = T>>(&self, chunk: &mut Chunk) {
-        let mut places: Vec<Range<u32>> = Vec::new();
-        for (level, searched) in self.grids.iter().enumerate() {
-            let first = self.starts[searched.first as usize] as usize;
-            let last = self.starts[searched.first as usize + searched.grid.len()] as usize;
-            let mut current = None;
-            for body in chunk.bodies.start.max(first)..chunk.bodies.end.min(last) {
-                let point = self.point(body);
-                let cell = searched.grid.cell(point);
-                if current != Some(cell) {
-                    current = Some(cell);
-                    places.clear();
-                    self.places_from(searched, cell, &mut places);
-                }
-                for run in &places {
-                    let start = run.start.max(body as u32 + 1);
+        let searched = &self.grids[chunk.grid];
+        let mut places = NearPlaces::default();
+        for rank in chunk.cells.clone() {
+            let bodies = self.places(searched, rank..rank + 1);
+            if bodies.is_empty() {
+                continue;
+            }
+            self.places_from(searched, rank, &mut places);
+            for body in bodies {
+                let point = self.point(body as usize);
+                for run in places.runs() {
+                    let start = run.start.max(body + 1);
                     self.test::<L>(body, point, start..run.end, &mut chunk.pairs);
                 }
-                for coarser in &self.grids[..level] {
+                for coarser in &self.grids[..chunk.grid] {
                     let cell = coarser.grid.cell(point);
                     coarser.grid.for_each_neighbour_row(cell, |_, runs| {
                         for run in runs {
@@ -137,20 +181,15 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
     }
 
     /// The places in a cell and its neighbours that are not all before it.
-    fn places_from(
-        &self,
-        searched: &SearchedGrid<T>,
-        cell: [u32; 3],
-        places: &mut Vec<Range<u32>>,
-    ) {
-        let own = searched.grid.rank(cell) - cell[0];
+    #[inline(always)]
+    fn places_from(&self, searched: &SearchedGrid<T>, rank: u32, places: &mut NearPlaces) {
+        let cell = searched.grid.cell_of_rank(rank);
+        let own = rank - cell[0];
+        places.count = 0;
         searched.grid.for_each_neighbour_row(cell, |row, runs: Runs| {
             if row >= own {
                 for run in runs {
-                    let run = self.places(searched, run);
-                    if !run.is_empty() {
-                        places.push(run);
-                    }
+                    places.push(self.places(searched, run));
                 }
             }
         });
@@ -171,29 +210,35 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         Vec3::new(self.position[0][body], self.position[1][body], self.position[2][body])
     }
 
+    /// The centres of the bodies from a place on, zeros past the end.
+    #[inline(always)]
+    fn points<L: Lane<Scalar = T>>(&self, start: usize) -> Vec3<L> {
+        // The columns are padded, but a run may start at any place.
+        let [x, y, z] = self.position;
+        if start + L::WIDTH <= x.len() {
+            Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]))
+        } else {
+            let tail = |column: &[T]| L::load_tail(&column[start..], T::ZERO);
+            Vec3::new(tail(x), tail(y), tail(z))
+        }
+    }
+
     /// Tests one body against the bodies of a run of places.
-    #[inline]
+    #[inline(always)]
     fn test<L: Lane<Scalar = T>>(
         &self,
-        body: usize,
+        body: u32,
         point: Vec3<T>,
         run: Range<u32>,
         pairs: &mut [Vec<Pair>; SHELLS],
     ) {
-        let own_radius = L::splat(self.radius.load::<T>(body));
+        let own_radius = L::splat(self.radius.load::<T>(body as usize));
         let skin = L::splat(self.skin);
         let point = Vec3::<L>::splat(point);
         let mut start = run.start as usize;
         let end = run.end as usize;
         while start < end {
-            // The columns are padded, but a run may start at any place.
-            let [x, y, z] = self.position;
-            let other = if start + L::WIDTH <= x.len() {
-                Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]))
-            } else {
-                let tail = |column: &[T]| L::load_tail(&column[start..], T::ZERO);
-                Vec3::new(tail(x), tail(y), tail(z))
-            };
+            let other = self.points(start);
             let contact = own_radius + self.radius.load_tail::<L>(start);
             let reach = contact + skin;
             let distance_squared = self.space.nearest(point - other).length_squared();
@@ -202,12 +247,12 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
                 near &= (1 << (end - start)) - 1;
             }
             if near != 0 {
-                let gap = distance_squared.sqrt() - contact;
-                let shell = (gap * L::splat(self.shells_per_length)).to_array();
+                let gap = (distance_squared.sqrt() - contact).to_array();
                 while near != 0 {
                     let k = near.trailing_zeros();
-                    let shell = shell.as_ref()[k as usize].whole_part().clamp(0, SHELLS as i64 - 1);
-                    pairs[shell as usize].push([body as u32, start as u32 + k]);
+                    let gap = gap.as_ref()[k as usize];
+                    let shell = self.shell_ends.iter().filter(|&&end| gap >= end).count();
+                    pairs[shell].push([body, start as u32 + k]);
                     near &= near - 1;
                 }
             }
@@ -218,12 +263,9 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
     /// Finds the bodies of the chunk that are near to a feature.
     pub fn surroundings<L: Lane<Scalar = T>>(&self, features: &[Feature<T>], chunk: &mut Chunk) {
         for (feature, near) in features.iter().zip(&mut chunk.at_feature) {
-            // Chunks start at multiples of every width.
             for start in chunk.bodies.clone().step_by(L::WIDTH) {
-                let [x, y, z] = self.position;
-                let center =
-                    Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]));
-                let radius = self.radius.load::<L>(start);
+                let center = self.points(start);
+                let radius = self.radius.load_tail::<L>(start);
                 let gap = feature.clearance(center, radius).gap;
                 let mut bits = gap.lt(L::splat(self.skin)).bits();
                 while bits != 0 {

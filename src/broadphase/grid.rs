@@ -93,6 +93,13 @@ impl<T: Real> Grid<T> {
         (z * self.cells[1] + y) * self.cells[0] + x
     }
 
+    /// The indices of the cell with a rank.
+    #[inline(always)]
+    pub fn cell_of_rank(&self, rank: u32) -> [u32; 3] {
+        let row = rank / self.cells[0];
+        [rank % self.cells[0], row % self.cells[1], row / self.cells[1]]
+    }
+
     /// Calls `visit` with the ranks of the cell's neighbours and itself, row by
     /// row as runs, each cell once.
     #[inline(always)]
