@@ -14,7 +14,7 @@ use crate::surroundings::{Feature, PeriodicBox, Shape};
 use crate::vec3::Vec3;
 
 /// A mistake of one body: the key of its entry, and the problem.
-type Found = (usize, &'static str, Problem);
+pub(super) type Found = (usize, &'static str, Problem);
 
 /// Checks all bodies. Centres on the upper face of the periodic box move to
 /// the lower one, which is the same place.
@@ -55,7 +55,7 @@ pub(super) fn bodies<T: Real>(
 }
 
 /// Radii, masses and moments of inertia.
-fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
     let figures =
         [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
     for (key, figure) in figures {

@@ -278,8 +278,8 @@ mod tests {
                 let center = [(); 3].map(|()| random.between(0.0, side));
                 let depth = |other: &([f64; 3], f64)| {
                     let mut square = 0.0;
-                    for axis in 0..3 {
-                        let mut d = (center[axis] - other.0[axis]).abs();
+                    for (a, b) in center.iter().zip(other.0) {
+                        let mut d = f64::abs(a - b);
                         if periodic {
                             d = d.min(side - d);
                         }
