@@ -35,7 +35,7 @@ macro_rules! scenes {
 pub fn builtin_scenes() -> &'static [BuiltinScene] {
     scenes! {
         "rough-gas": "20,000 rough spheres in a container under gravity",
-        "bouncing-ball": "a ball on a floor, 1,000 bounces high as the first",
+        "bouncing-ball": "a ball on a floor, after 1,000 bounces as high as at the start",
         "newtons-cradle": "five balls in a row, one of them swung in",
         "superball": "a rough ball between floor and ceiling, where it turns back",
         "hard-sphere-fluid": "10,976 smooth spheres in a periodic cube at density 0.5",

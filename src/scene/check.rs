@@ -5,6 +5,7 @@
 use core::ops::Range;
 
 use super::builder::{Entry, Periodicity, SceneBuilder};
+use super::check_bodies;
 use super::error::{Problem, SceneError};
 use super::spheres::{Make, Spheres, Spread};
 use super::{MOST_BODIES, MOST_STEPS};
@@ -171,6 +172,9 @@ pub(super) fn entries<T: Real>(builder: &SceneBuilder<T>) -> Result<Vec<Range<us
             }
             Entry::Ready(bodies) => {
                 columns(bodies).map_err(fail)?;
+                check_bodies::figures(bodies).map_err(|(.., problem)| {
+                    builder.origin.error(format!("spheres[{index}]"), problem)
+                })?;
                 bodies.len() as u64
             }
         };

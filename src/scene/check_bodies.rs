@@ -14,7 +14,7 @@ use crate::surroundings::{Feature, PeriodicBox, Shape};
 use crate::vec3::Vec3;
 
 /// A mistake of one body: the key of its entry, and the problem.
-type Found = (usize, &'static str, Problem);
+pub(super) type Found = (usize, &'static str, Problem);
 
 /// Checks all bodies. Centres on the upper face of the periodic box move to
 /// the lower one, which is the same place.
@@ -55,7 +55,7 @@ pub(super) fn bodies<T: Real>(
 }
 
 /// Radii, masses and moments of inertia.
-fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
     let figures =
         [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
     for (key, figure) in figures {
@@ -241,18 +241,18 @@ fn overlaps<T: Real>(periodic: Option<PeriodicBox<T>>, bodies: &Bodies<T>) -> Re
         }
     };
     for level in 0..=finest {
-        for body in 0..bodies.len() {
-            let radius = bodies.radius.of(body).to_f64();
-            if finest > 0 && table.level(radius) != level {
-                continue;
-            }
-            let center = bodies.position_of(body).to_array().map(T::to_f64);
-            if let Some(other) = table.overlapping(center, radius) {
-                let other_body = other.id as usize;
-                let (a, b) = (body.min(other_body), body.max(other_body));
+        let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
+        let radius = |body: u32| bodies.radius.of(body as usize).to_f64();
+        let mut order: Vec<u32> = (0..bodies.len() as u32)
+            .filter(|body| finest == 0 || table.level(radius(*body)) == level)
+            .collect();
+        order.sort_by_cached_key(|body| table.order(level, center(*body)));
+        for body in order {
+            if let Some(other) = table.overlapping(center(body), radius(body)) {
+                let (a, b) = (body.min(other.id) as usize, body.max(other.id) as usize);
                 return Err((b, "", Problem::Overlap { a, b, depth: other.depth }));
             }
-            table.insert(body as u32, center, radius);
+            table.insert(body, center(body), radius(body));
         }
     }
     Ok(())

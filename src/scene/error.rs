@@ -37,12 +37,12 @@ impl fmt::Display for Place {
 /// ```
 /// use carom::scene::SceneFile;
 ///
-/// let text = "[[spheres]]\nposition = [0, 0, 0]\nradius = -0.5\n";
+/// let text = "stepped.dt = 1e-3\n[[spheres]]\nposition = [0, 0, 0]\nradius = -0.5\n";
 /// let file = SceneFile::parse("ball.toml", text)?;
 /// let error = file.build::<f64>().unwrap_err();
 /// assert_eq!(
 ///     error.to_string(),
-///     "ball.toml:3: spheres[0].radius is -0.5; a radius must be finite and greater than 0"
+///     "ball.toml:4: spheres[0].radius is -0.5; a radius must be finite and greater than 0"
 /// );
 /// # Ok::<(), carom::scene::SceneError>(())
 /// ```
@@ -101,8 +101,9 @@ pub enum Problem {
     },
     /// Two spheres in the same place.
     #[error(
-        "puts body {b} into body {a}: they overlap by {depth:e}; \
-         spheres may touch at the start, not overlap"
+        "puts body {b} into body {a}: they overlap by {}; \
+         spheres may touch at the start, not overlap",
+        short(*depth)
     )]
     Overlap {
         /// The lesser index.
@@ -113,7 +114,7 @@ pub enum Problem {
         depth: f64,
     },
     /// A sphere where something fixed is, or outside of a box.
-    #[error("puts body {body} {beyond}, by {depth:e}; {wanted}")]
+    #[error("puts body {body} {beyond}, by {}; {wanted}", short(*depth))]
     Misplaced {
         /// Its index.
         body: usize,
@@ -152,4 +153,10 @@ impl Problem {
     pub(super) fn conflict(other: impl Into<String>, reason: impl Into<String>) -> Self {
         Self::Conflict { other: other.into(), reason: reason.into() }
     }
+}
+
+/// A length in a message, with the digits that a person reads.
+fn short(length: f64) -> String {
+    let rounded = format!("{length:.5e}").parse().unwrap_or(length);
+    format!("{rounded:?}")
 }

@@ -17,6 +17,44 @@ use crate::surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane, Shape};
 
 /// A scene file, read but not yet built: the precision is still to choose.
 ///
+/// | At the top | Default | |
+/// |---|---|---|
+/// | `precision` | `"f64"` | or `"f32"` |
+/// | `engine` | `"stepped"` | or `"event-driven"` |
+/// | `duration` | | time; a run needs it |
+/// | `gravity` | `[0, 0, 0]` | length per time² |
+/// | `seed` | 0 | of all random numbers |
+/// | `encounters` | `"all"` | who can meet whom; or `"surroundings"`, `"none"` |
+/// | `periodic` | | a table with `lower` and `upper`, or `"cube"`, sized by a `number_density` |
+///
+/// | `[stepped]` | Default | |
+/// |---|---|---|
+/// | `dt` | | time; a scene of the stepped engine needs it |
+/// | `integrator` | `"semi-implicit-euler"` | or `"explicit-euler"`, `"velocity-verlet"` |
+/// | `impact` | `"end-of-step"` | or `"sub-step"` |
+/// | `orientation` | `"when-asked"` | or `"each-step"` |
+///
+/// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
+/// `[[surroundings]]` have a `shape`: a `"plane"` with `point` and `normal` (of
+/// any length, out of the solid), a `"box"` with `lower`, `upper` and `inside`, a
+/// `"sphere"` with `center`, `radius` and `inside`; `inside = true` makes a
+/// container.
+///
+/// | `[[spheres]]` | Default | |
+/// |---|---|---|
+/// | `position` | | length; makes one sphere |
+/// | `count`, `arrangement` | | make many: `"fcc"`, `"cubic"` or `"random"` |
+/// | `lower`, `upper` | periodic box or container | the box that many fill |
+/// | `number_density` | | instead of a box, with `periodic = "cube"` |
+/// | `temperature`, `spin_temperature` | 0 | of many: kT, energy |
+/// | `radius` | | length |
+/// | `mass` or `density` | mass 1 | |
+/// | `inertia_factor` | 0.4 | `I / (m r²)`, above 0 and up to 2/3 |
+/// | `velocity`, `spin` | `[0, 0, 0]` | length and rad per time; of many, added to all |
+///
+/// `radius`, `mass` and `density` can be two numbers, `[least, greatest]`, to
+/// spread evenly over.
+///
 /// The public fields are what the program's options set. A field that was
 /// changed is blamed on its option (`--dt` for [`dt`](SceneFile::dt)), not on a
 /// line of the file.

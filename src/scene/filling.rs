@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::figures::{Figures, Values};
 use super::random::{Purpose, Random, Seed};
-use super::spheres::Spheres;
+use super::spheres::{Make, Spheres};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
 use crate::mat3::Mat3;
@@ -45,8 +45,8 @@ impl<T: Real> Sparse<T> {
 /// Bodies that are being filled in.
 pub(super) struct Filling<T: Real> {
     position: Columns3<T>,
-    pub(super) velocity: Columns3<T>,
-    pub(super) spin: Columns3<T>,
+    velocity: Columns3<T>,
+    spin: Columns3<T>,
     orientation: Option<Box<[Column<T>; 9]>>,
     radius: Sparse<T>,
     mass: Sparse<T>,
@@ -78,6 +78,14 @@ impl<T: Real> Filling<T> {
         set(&mut self.position, index, center);
     }
 
+    /// How one sphere starts.
+    pub(super) fn start(&mut self, index: usize, make: &Make) {
+        set(&mut self.velocity, index, make.velocity);
+        set(&mut self.spin, index, make.spin);
+    }
+
+    /// How a group starts: what is common to all, and what its temperatures
+    /// add.
     pub(super) fn motion(
         &mut self,
         range: &Range<usize>,
@@ -165,13 +173,6 @@ fn thermal(
         } else {
             take(k, [0.0; 3]);
         }
-    }
-}
-
-/// The same vector for a range of bodies.
-pub(super) fn fill<T: Real>(columns: &mut Columns3<T>, range: &Range<usize>, vector: [f64; 3]) {
-    for (column, component) in columns.iter_mut().zip(vector) {
-        column[range.clone()].fill(T::from_f64(component));
     }
 }
 

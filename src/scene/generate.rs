@@ -2,11 +2,11 @@
 
 use core::ops::Range;
 
-use super::arrangement::{self, Layout, Region};
+use super::arrangement::{self, Layout, Region, free_place};
 use super::builder::{Entry, GivenBox, Periodicity, SceneBuilder, rounded_box};
 use super::error::{Problem, SceneError};
 use super::figures::Figures;
-use super::filling::{Filling, fill};
+use super::filling::Filling;
 use super::neighbours::Neighbours;
 use super::random::{Purpose, Seed};
 use super::spheres::{Arrangement, Spheres, Spread};
@@ -80,7 +80,7 @@ fn cube_root(value: f64) -> f64 {
 }
 
 /// The bodies of all entries, in their order. Entries with a place of their own
-/// and lattices go first, then random groups find their places among them.
+/// and lattices settle first, then random groups scatter among them.
 pub(super) fn bodies<T: Real>(
     builder: &mut SceneBuilder<T>,
     periodic: Option<PeriodicBox<f64>>,
@@ -94,81 +94,114 @@ pub(super) fn bodies<T: Real>(
     let builder = &*builder;
     let layouts = layouts(builder, periodic)?;
     let len = ranges.last().map_or(0, |range| range.end);
-    let mut filling = Filling::new(len);
-    let mut neighbours = None;
     let has_random = layouts.iter().any(|layout| matches!(layout, Some(Layout::Random(_))));
-    if has_random && builder.encounters == Encounters::All {
-        neighbours = Some(Neighbours::new(len, greatest_radius(builder), 0.0, periodic));
-    }
-    for (index, (entry, range)) in builder.entries.iter().zip(ranges).enumerate() {
-        let start = range.start;
-        match entry {
-            Entry::One(sphere) => {
-                let figures = Figures::new(&sphere.make, 1, seed(builder, entry, index));
-                filling.figures(start, 1, &figures);
-                filling.place(start, sphere.position);
-                fill(&mut filling.velocity, range, sphere.make.velocity);
-                fill(&mut filling.spin, range, sphere.make.spin);
-                if let Some(table) = &mut neighbours {
-                    table.insert(start as u32, sphere.position, figures.radius.of(0));
-                }
-            }
-            Entry::Many(spheres) => {
-                let seed = seed(builder, entry, index);
-                let figures = Figures::new(&spheres.make, range.len(), seed);
-                filling.figures(start, range.len(), &figures);
-                filling.motion(range, spheres, &figures, seed);
-                if let Some(Layout::Lattice(lattice)) = &layouts[index] {
-                    for k in 0..range.len() {
-                        let site = lattice.site(k as u64);
-                        filling.place(start + k, site);
-                        if let Some(table) = &mut neighbours {
-                            table.insert((start + k) as u32, site, figures.radius.of(k));
-                        }
-                    }
-                }
-            }
-            Entry::Ready(bodies) => {
-                filling.copy(start, bodies);
-                if let Some(table) = &mut neighbours {
-                    for k in 0..bodies.len() {
-                        let center = bodies.position_of(k).to_array().map(T::to_f64);
-                        table.insert((start + k) as u32, center, bodies.radius.of(k).to_f64());
-                    }
-                }
-            }
-        }
+    let must_find_room = has_random && builder.encounters == Encounters::All;
+    let mut generation = Generation {
+        filling: Filling::new(len),
+        neighbours: must_find_room
+            .then(|| Neighbours::new(len, greatest_radius(builder), 0.0, periodic)),
+    };
+    let entries = || builder.entries.iter().zip(ranges).zip(&layouts).enumerate();
+    for (index, ((entry, range), layout)) in entries() {
+        generation.settle(entry, range, layout.as_ref(), seed(builder, entry, index));
     }
     let fixed: Vec<Feature<f64>> = match builder.encounters {
         Encounters::None => Vec::new(),
         _ => builder.surroundings.iter().flat_map(|given| given.exact.features()).collect(),
     };
-    for (index, (entry, range)) in builder.entries.iter().zip(ranges).enumerate() {
-        let (Entry::Many(spheres), Some(Layout::Random(region))) = (entry, &layouts[index]) else {
-            continue;
-        };
-        let seed = seed(builder, entry, index);
-        let figures = Figures::new(&spheres.make, range.len(), seed);
-        let mut random = seed.random(Purpose::Position);
-        for k in 0..range.len() {
-            let radius = figures.radius.of(k);
-            let table = neighbours.as_ref();
-            let Some(center) = arrangement::free_place(region, radius, &fixed, table, &mut random)
-            else {
-                let reason = format!(
-                    "no free place was found for sphere {k} of the group, of radius {radius:?}; \
-                     take fewer or smaller ones, a larger box, or a lattice"
-                );
-                let problem = Problem::NoRoom { count: spheres.count, reason };
-                return Err(builder.origin.error(format!("spheres[{index}].count"), problem));
-            };
-            filling.place(range.start + k, center);
-            if let Some(table) = &mut neighbours {
-                table.insert((range.start + k) as u32, center, radius);
+    for (index, ((entry, range), layout)) in entries() {
+        if let (Entry::Many(spheres), Some(Layout::Random(region))) = (entry, layout) {
+            generation
+                .scatter(spheres, range, region, &fixed, seed(builder, entry, index))
+                .map_err(|problem| {
+                    builder.origin.error(format!("spheres[{index}].count"), problem)
+                })?;
+        }
+    }
+    Ok(generation.filling.into_bodies())
+}
+
+/// Bodies that are being put in their places.
+struct Generation<T: Real> {
+    filling: Filling<T>,
+    /// Those that have a place, if random groups have to find room among them.
+    neighbours: Option<Neighbours>,
+}
+
+impl<T: Real> Generation<T> {
+    fn place(&mut self, index: usize, center: [f64; 3], radius: f64) {
+        self.filling.place(index, center);
+        if let Some(table) = &mut self.neighbours {
+            table.insert(index as u32, center, radius);
+        }
+    }
+
+    /// Everything about an entry but the places of a random group.
+    fn settle(
+        &mut self,
+        entry: &Entry<T>,
+        range: &Range<usize>,
+        layout: Option<&Layout>,
+        seed: Seed,
+    ) {
+        match entry {
+            Entry::One(sphere) => {
+                let figures = Figures::new(&sphere.make, 1, seed);
+                self.filling.figures(range.start, 1, &figures);
+                self.filling.start(range.start, &sphere.make);
+                self.place(range.start, sphere.position, figures.radius.of(0));
+            }
+            Entry::Many(spheres) => {
+                let figures = Figures::new(&spheres.make, range.len(), seed);
+                self.filling.figures(range.start, range.len(), &figures);
+                self.filling.motion(range, spheres, &figures, seed);
+                if let Some(Layout::Lattice(lattice)) = layout {
+                    for k in 0..range.len() {
+                        self.place(range.start + k, lattice.site(k as u64), figures.radius.of(k));
+                    }
+                }
+            }
+            Entry::Ready(bodies) => {
+                self.filling.copy(range.start, bodies);
+                if let Some(table) = &mut self.neighbours {
+                    for k in 0..bodies.len() {
+                        let center = bodies.position_of(k).to_array().map(T::to_f64);
+                        let radius = bodies.radius.of(k).to_f64();
+                        table.insert((range.start + k) as u32, center, radius);
+                    }
+                }
             }
         }
     }
-    Ok(filling.into_bodies())
+
+    /// The places of a random group.
+    fn scatter(
+        &mut self,
+        spheres: &Spheres,
+        range: &Range<usize>,
+        region: &Region,
+        fixed: &[Feature<f64>],
+        seed: Seed,
+    ) -> Result<(), Problem> {
+        let figures = Figures::new(&spheres.make, range.len(), seed);
+        let mut random = seed.random(Purpose::Position);
+        let mut attempts = arrangement::attempts(spheres.count);
+        for k in 0..range.len() {
+            let radius = figures.radius.of(k);
+            let table = self.neighbours.as_ref();
+            let place = free_place(region, radius, fixed, table, &mut random, &mut attempts);
+            let Some(center) = place else {
+                let reason = format!(
+                    "after {} attempts there was no free place for sphere {k} of the group, of \
+                     radius {radius:?}; take fewer or smaller ones, a larger box, or a lattice",
+                    arrangement::attempts(spheres.count)
+                );
+                return Err(Problem::NoRoom { count: spheres.count, reason });
+            };
+            self.place(range.start + k, center, radius);
+        }
+        Ok(())
+    }
 }
 
 /// The layouts of all groups, before anything is allocated for them.

@@ -80,6 +80,13 @@ impl Neighbours {
         level
     }
 
+    /// A key by which nearby places sort together, for the sake of the cache.
+    pub(super) fn order(&self, level: u32, center: [f64; 3]) -> u64 {
+        const MASK: u64 = (1 << 21) - 1;
+        let [x, y, z] = center.map(|c| self.cell(level, c) as u64 & MASK);
+        z << 42 | y << 21 | x
+    }
+
     /// Adds a sphere.
     pub(super) fn insert(&mut self, id: u32, center: [f64; 3], radius: f64) {
         let level = self.level(radius);
@@ -149,19 +156,43 @@ impl Neighbours {
         if cells > self.residents.len() as f64 {
             return self.residents.iter().find_map(|other| self.overlap(other, center, radius));
         }
+        // All lists are looked up before the first is gone through: the cache
+        // then fetches them side by side.
+        let mut lists = [NONE; 27];
+        let mut count = 0;
         for z in ranges[2].clone() {
             for y in ranges[1].clone() {
                 for x in ranges[0].clone() {
-                    let mut place = self.heads[self.bucket(level, [x, y, z])];
-                    while place != NONE {
-                        let other = &self.residents[place as usize];
-                        let found = self.overlap(other, center, radius);
-                        if found.is_some() {
-                            return found;
+                    let head = self.heads[self.bucket(level, [x, y, z])];
+                    lists[count] = head;
+                    count += usize::from(head != NONE);
+                    if count == lists.len() {
+                        if let Some(found) = self.overlap_in_lists(&lists, center, radius) {
+                            return Some(found);
                         }
-                        place = other.next;
+                        count = 0;
                     }
                 }
+            }
+        }
+        self.overlap_in_lists(&lists[..count], center, radius)
+    }
+
+    fn overlap_in_lists(
+        &self,
+        lists: &[u32],
+        center: [f64; 3],
+        radius: f64,
+    ) -> Option<Overlapping> {
+        for &head in lists {
+            let mut place = head;
+            while place != NONE {
+                let other = &self.residents[place as usize];
+                let found = self.overlap(other, center, radius);
+                if found.is_some() {
+                    return found;
+                }
+                place = other.next;
             }
         }
         None
@@ -247,8 +278,8 @@ mod tests {
                 let center = [(); 3].map(|()| random.between(0.0, side));
                 let depth = |other: &([f64; 3], f64)| {
                     let mut square = 0.0;
-                    for axis in 0..3 {
-                        let mut d = (center[axis] - other.0[axis]).abs();
+                    for (a, b) in center.iter().zip(other.0) {
+                        let mut d = f64::abs(a - b);
                         if periodic {
                             d = d.min(side - d);
                         }

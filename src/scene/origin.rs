@@ -93,16 +93,21 @@ fn reworded(message: &str) -> Problem {
         let known = expected.trim_start_matches("one of ").to_owned();
         return Problem::UnknownKey { known };
     }
-    let found = ["invalid type: ", "invalid value: ", "unknown variant "]
-        .iter()
-        .find_map(|prefix| found.strip_prefix(prefix))
-        .unwrap_or(found);
+    let found = [
+        ("invalid type: ", ""),
+        ("invalid value: ", ""),
+        ("unknown variant ", ""),
+        ("invalid length ", "an array of length "),
+    ]
+    .iter()
+    .find_map(|(theirs, ours)| Some(format!("{ours}{}", found.strip_prefix(theirs)?)))
+    .unwrap_or_else(|| found.to_owned());
     let wanted = if expected.is_empty() {
         "see `carom scenes rough-gas` for an example".to_owned()
     } else {
         format!("it must be {expected}")
     };
-    Problem::Value { found: found.to_owned(), wanted }
+    Problem::Value { found, wanted }
 }
 
 /// The line, from 1, that a byte is on.
