@@ -16,10 +16,10 @@ mod common;
 
 use carom::lane::Lane;
 use carom::motion::Integrator;
-use carom::surroundings::OpenSpace;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
 use carom::real::Real;
+use carom::surroundings::OpenSpace;
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
 use common::numbers::{Random, hash};

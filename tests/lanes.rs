@@ -6,13 +6,13 @@ mod common;
 use carom::lane::{Lane, Mask, Twin};
 use carom::mat3::Mat3;
 use carom::motion::Integrator;
-use carom::surroundings::OpenSpace;
 use carom::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, SemiImplicitEuler, VelocityVerlet,
 };
 use carom::motion::rotation::{reference_rotation, turned};
 use carom::motion::turning::turn;
 use carom::real::Real;
+use carom::surroundings::OpenSpace;
 use carom::surroundings::PeriodicBox;
 use carom::trigonometry::{sin_cos, sin_cos_of_sum};
 use carom::vec3::Vec3;
@@ -302,9 +302,7 @@ where
                         expected.each_mut().map(|column| &mut column[k..=k]);
                     let (position, velocity) = ([x, y, z], [u, v, w]);
                     fastest[1] = integrator
-                        .flight_and_fastest::<L::Scalar, _>(
-                            position, velocity, field, dt, periodic,
-                        )
+                        .flight_and_fastest::<L::Scalar, _>(position, velocity, field, dt, periodic)
                         .greater(fastest[1]);
                 }
                 assert_eq!(bits(&swept), bits(&expected));
