@@ -30,7 +30,8 @@ impl Progress {
         let Some(bar) = &self.bar else { return };
         let count = collisions.pairs + collisions.surroundings;
         let rate = steps as f64 / busy.as_secs_f64().max(1e-9);
-        bar.set_message(format!("time {time:.4}  {count} collisions  {rate:.0} steps/s"));
+        let time = if time < 0.01 { format!("{time:.2e}") } else { format!("{time:.4}") };
+        bar.set_message(format!("time {time}  {count} collisions  {rate:.0} steps/s"));
         bar.set_position(steps);
     }
 }
