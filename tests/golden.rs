@@ -14,7 +14,6 @@
 
 mod common;
 
-use carom::lane::Lane;
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
