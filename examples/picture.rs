@@ -144,7 +144,8 @@ fn drawing(bodies: &Bodies<f64>) -> String {
     let speeds: Vec<f64> = (0..bodies.len()).map(|k| bodies.velocity_of(k).length()).collect();
     let (slow, fast) = spread(&speeds);
     for layer in order.chunks(order.len().div_ceil(LAYERS)) {
-        svg += &format!("<path d=\"M0 20H{WIDTH}V740H0z\" fill=\"{BACKGROUND}\" opacity=\".1\"/>\n");
+        svg +=
+            &format!("<path d=\"M0 20H{WIDTH}V740H0z\" fill=\"{BACKGROUND}\" opacity=\".1\"/>\n");
         for &(k, [x, y, _]) in layer {
             let place = ((speeds[k] / slow).ln() / (fast / slow).ln()).clamp(0.0, 1.0);
             let shade = (place * (SHADES - 1) as f64).round();
