@@ -135,7 +135,7 @@ fn scenes_agree<T: Real>() {
         // One so far away that no grid of so few bodies could span them all.
         let stray = Sphere::new([1e6, -1e6, 3e5]).radius(0.4).velocity([-3.0, 0.5, 0.0]);
         let gas =
-            Spheres::random(100).within([0.0; 3], [4.0; 3]).radius(0.4).temperature(1.0).seed(6);
+            Spheres::random(100).within([0.0; 3], [5.0; 3]).radius(0.4).temperature(1.0).seed(6);
         let open = builder()
             .name("a stray body")
             .surroundings(FixedSphere::container(corner(2.0), t(2e6)))
