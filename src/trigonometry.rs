@@ -107,26 +107,26 @@ fn without_whole_turns<L: Lane>(head: L, tail: L) -> (L, L) {
     (L::select(is_lost, head - head, near), L::select(is_lost, L::ZERO, rest))
 }
 
-/// `sin(h)/h` from `h²`, for `|h|` up to π/4. Error below ε.
+/// `1 − sin(h)/h` from `h²`, for `|h|` up to π/4. Relative error a few ε.
 ///
 /// ```
-/// use carom::trigonometry::sine_ratio;
-/// assert_eq!(sine_ratio(0.0), 1.0);
+/// use carom::trigonometry::sine_ratio_deficit;
+/// assert_eq!(sine_ratio_deficit(6e-9), 1e-9);
 /// ```
 #[inline(always)]
-pub fn sine_ratio<L: Lane>(square: L) -> L {
-    alternating_series(square, 1)
+pub fn sine_ratio_deficit<L: Lane>(square: L) -> L {
+    square * alternating_series(square, 3)
 }
 
-/// `cos(h)` from `h²`, for `|h|` up to π/4. Error below ε.
+/// `1 − cos(h)` from `h²`, for `|h|` up to π/4. Relative error a few ε.
 ///
 /// ```
-/// use carom::trigonometry::cosine;
-/// assert_eq!(cosine(0.0), 1.0);
+/// use carom::trigonometry::cosine_deficit;
+/// assert_eq!(cosine_deficit(2e-9), 1e-9);
 /// ```
 #[inline(always)]
-pub fn cosine<L: Lane>(square: L) -> L {
-    alternating_series(square, 0)
+pub fn cosine_deficit<L: Lane>(square: L) -> L {
+    square * alternating_series(square, 2)
 }
 
 /// `1/n! − z/(n+2)! + z²/(n+4)! − …`: cosine (`n` = 0) and sine (1) of `√z`,
