@@ -98,10 +98,10 @@ fn errors<T: Judged>(least: i32, most: i32) -> [f64; 2] {
 fn agrees_with_the_judge<T: Judged>() {
     let [reference, fast] = errors::<T>(-8, 0);
     println!("{}, up to a radian: reference {reference:.2} ε, fast {fast:.2} ε", T::NAME);
-    assert!(reference < 5.0 && fast < 2.5);
+    assert!(reference < 5.0 && fast < 2.0);
     let [reference, fast] = errors::<T>(0, 4);
     println!("{}, up to 1e4 rad: reference {reference:.2} ε, fast {fast:.2} ε", T::NAME);
-    assert!(reference < 2e4 && fast < 4.0);
+    assert!(reference < 2e4 && fast < 5.0);
     let [reference, fast] = errors::<T>(4, 7);
     println!("{}, up to 1e7 rad: reference {reference:.2} ε, fast {fast:.2} ε", T::NAME);
     assert!(fast < 6.0);
@@ -155,10 +155,11 @@ where
     const STEPS: i32 = 1_000_000;
     let mut random = Random(14);
     let dt = <L::Scalar as Lane>::ratio(1, 100);
-    let start: Vec<(Mat3<L::Scalar>, Vec3<L::Scalar>)> = (0..L::WIDTH)
+    let start: Vec<_> = (0..L::WIDTH)
         .map(|_| {
             let spin: Vec3<L::Scalar> = random.vector();
-            (orthonormalised(random.orientation()), spin * (L::Scalar::ONE / spin.length()))
+            let m: Mat3<L::Scalar> = orthonormalised(random.orientation());
+            (m, spin * (L::Scalar::ONE / spin.length()))
         })
         .collect();
     let spin = Vec3::from(core::array::from_fn(|k| L::from_fn(|i| start[i].1.to_array()[k])));
@@ -205,11 +206,11 @@ fn great_steps_keep_it_orthonormal() {
 #[test]
 fn a_million_steps_f32() {
     let [skewness, angle] = million_steps::<wide::f32x16>();
-    assert!(skewness < 3e-7 && angle < 4e-4);
+    assert!(skewness < 3e-7 && angle < 1e-4);
 }
 
 #[test]
 fn a_million_steps_f64() {
     let [skewness, angle] = million_steps::<wide::f64x8>();
-    assert!(skewness < 1e-15 && angle < 1.3e-12);
+    assert!(skewness < 1e-15 && angle < 2e-13);
 }

@@ -49,16 +49,16 @@ pub fn reference_rotation<L: Lane>(spin: Vec3<L>, time: L) -> Mat3<L> {
 /// `spin` in rad per time; `time` of any size and sign, a step or the age of
 /// the last collision. The error of an element is a few ε at any angle up to
 /// `ε⁻¹` rad, and not `ε|w|t`: an orientation may well be left alone for a
-/// thousand turns. Up to half a turn of `wt/2` there is no root and no
-/// division, only even polynomials of `|wt/2|²`; greater angles are worked out
-/// to twice the digits.
+/// thousand turns. Up to a quarter turn there is no root and no division, only
+/// even polynomials of `|wt/2|²`; greater angles are worked out to twice the
+/// digits.
 ///
 /// `R M` alone leaves the orthonormal matrices: `‖MᵗM − 1‖` is 2e-2 (`f32`) or
 /// 4e-11 (`f64`) after 10⁶ steps of 0.01 rad. So there is one Newton step
 /// `M(3 − MᵗM)/2` in it, and the whole is one sum
 /// `M + (N + [wt]×(M + N) + …)` with `N = M(1 − MᵗM)/2`, rounded once. After the
-/// 10⁶ steps `‖MᵗM − 1‖` is 1.2e-7 or 2e-16 and the angle is off by 3e-5 or
-/// 4e-14 rad. What was tried before, at the same cost: the Newton step after
+/// 10⁶ steps `‖MᵗM − 1‖` is 1e-7 or 2e-16 and the angle is off by 4e-5 or
+/// 6e-14 rad. What was tried before, at the same cost: the Newton step after
 /// the rotation, a second rounding, 2e-4 or 5e-13 rad; `wt` rounded and added
 /// to the small terms, the same error in each step, 6e-4 or 2e-12 rad.
 ///
@@ -73,14 +73,20 @@ pub fn reference_rotation<L: Lane>(spin: Vec3<L>, time: L) -> Mat3<L> {
 /// ```
 #[inline(always)]
 pub fn turned<L: Lane>(orientation: Mat3<L>, spin: Vec3<L>, time: L) -> Mat3<L> {
-    let Change { lead, rest } = rotation_change(spin, time);
+    let Change { lead, rest, is_small } = rotation_change(spin, time);
     let newton = newton_correction(orientation);
-    Mat3 {
+    let after = Mat3 {
         columns: core::array::from_fn(|k| {
             let (axis, correction) = (orientation.columns[k], newton.columns[k]);
             let mended = axis + correction;
             axis + (correction + (lead.cross(mended) + rest * mended))
         }),
+    };
+    if is_small.all() {
+        after
+    } else {
+        // A great change has errors of some ε itself.
+        Mat3::select(is_small, after, orthonormalised(after))
     }
 }
 
@@ -117,10 +123,12 @@ fn newton_correction<L: Lane>(m: Mat3<L>) -> Mat3<L> {
 
 /// What a rotation changes, `R − 1 = [lead]× + rest`, in two parts so that the
 /// greater is not rounded by the sum.
-struct Change<L> {
+struct Change<L: Lane> {
     /// `wt`, or 0 for a great angle.
     lead: Vec3<L>,
     rest: Mat3<L>,
+    /// Up to a quarter turn.
+    is_small: L::Mask,
 }
 
 /// `R − 1 = sin|a| [n]× + (1 − cos|a|) [n]×²` of the angle vector
@@ -139,12 +147,12 @@ fn rotation_change<L: Lane>(spin: Vec3<L>, time: L) -> Change<L> {
     let mut ratio = L::ONE - ratio;
 
     let [quarter_turn, ..] = L::Scalar::QUARTER_TURN;
-    let is_near = square.le(L::splat(quarter_turn * quarter_turn * L::Scalar::ratio(1, 4)));
-    if !is_near.all() {
+    let is_small = square.le(L::splat(quarter_turn * quarter_turn * L::Scalar::ratio(1, 4)));
+    if !is_small.all() {
         let (far_cosine, far_ratio) = far_cosine_and_ratio(spin, time);
-        lead = Vec3::select(is_near, lead, Vec3::ZERO);
-        sines = Vec3::select(is_near, sines, angle * (far_cosine * far_ratio));
-        ratio = L::select(is_near, ratio, far_ratio);
+        lead = Vec3::select(is_small, lead, Vec3::ZERO);
+        sines = Vec3::select(is_small, sines, angle * (far_cosine * far_ratio));
+        ratio = L::select(is_small, ratio, far_ratio);
     }
 
     let scaled = angle * (ratio * ratio * L::ratio(1, 2));
@@ -155,7 +163,7 @@ fn rotation_change<L: Lane>(spin: Vec3<L>, time: L) -> Change<L> {
         Vec3::new(xy - sines.z, -(xx + zz), yz + sines.x),
         Vec3::new(xz + sines.y, yz - sines.x, -(xx + yy)),
     );
-    Change { lead, rest }
+    Change { lead, rest, is_small }
 }
 
 /// `cos h` and `(sin h)/h` of a great `h = |w|t/2`, with `h` to twice the
