@@ -1,6 +1,7 @@
 //! Bodies: the state of all spheres, a column for each component.
 
 use crate::column::Column;
+use crate::lane::Lane;
 use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -61,6 +62,61 @@ impl<T: Real> PerBody<T> {
         match self {
             Self::Same(value) => *value,
             Self::Each(column) => column.iter().fold(T::ZERO, |most, &value| value.greater(most)),
+        }
+    }
+}
+
+/// A figure of each body as a kernel reads it. The type says at compile time
+/// whether it has to be loaded at all.
+pub trait Figure<T: Real>: Copy + Send + Sync {
+    /// The figures of the bodies at `indices`.
+    fn gather<L: Lane<Scalar = T>>(self, indices: &[u32]) -> L;
+
+    /// The figures of the bodies from `index` on.
+    fn load<L: Lane<Scalar = T>>(self, index: usize) -> L;
+
+    /// The same where the last lanes may be past the end; those are 0.
+    fn load_tail<L: Lane<Scalar = T>>(self, index: usize) -> L;
+}
+
+/// One figure for all bodies: nothing is loaded.
+#[derive(Clone, Copy, Debug)]
+pub struct Same<T>(pub T);
+
+impl<T: Real> Figure<T> for Same<T> {
+    #[inline(always)]
+    fn gather<L: Lane<Scalar = T>>(self, _: &[u32]) -> L {
+        L::splat(self.0)
+    }
+
+    #[inline(always)]
+    fn load<L: Lane<Scalar = T>>(self, _: usize) -> L {
+        L::splat(self.0)
+    }
+
+    #[inline(always)]
+    fn load_tail<L: Lane<Scalar = T>>(self, _: usize) -> L {
+        L::splat(self.0)
+    }
+}
+
+impl<T: Real> Figure<T> for &[T] {
+    #[inline(always)]
+    fn gather<L: Lane<Scalar = T>>(self, indices: &[u32]) -> L {
+        L::gather(self, indices)
+    }
+
+    #[inline(always)]
+    fn load<L: Lane<Scalar = T>>(self, index: usize) -> L {
+        L::load(&self[index..])
+    }
+
+    #[inline(always)]
+    fn load_tail<L: Lane<Scalar = T>>(self, index: usize) -> L {
+        if index + L::WIDTH <= self.len() {
+            L::load(&self[index..])
+        } else {
+            L::load_tail(&self[index..], T::ZERO)
         }
     }
 }

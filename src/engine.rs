@@ -1,10 +1,14 @@
 //! Engines: what moves a scene through time.
 
 mod event;
+mod plan;
+mod stepped;
 
 use serde::{Deserialize, Serialize};
 
 pub use event::{Event, Partner};
+pub use plan::{Plan, Turning};
+pub use stepped::Stepped;
 
 /// How an engine goes through time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,4 +76,15 @@ pub struct Collisions {
     pub pairs: u64,
     /// Between a body and something fixed.
     pub surroundings: u64,
+}
+
+/// Why an engine can't take a scene.
+#[derive(Debug, thiserror::Error)]
+pub enum EngineError {
+    /// The stepped engine needs the length of a step.
+    #[error("the scene has no step; set `dt` under [stepped], or `--dt`, to its length in time")]
+    NoStep,
+    /// The system has no threads to give.
+    #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
 }

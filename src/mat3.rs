@@ -30,7 +30,8 @@ impl<L: Lane> Mat3<L> {
     /// The same matrix in every lane.
     #[inline(always)]
     pub fn splat(value: Mat3<L::Scalar>) -> Self {
-        Self { columns: value.columns.map(Vec3::splat) }
+        let [a, b, c] = value.columns;
+        Self::from_columns(Vec3::splat(a), Vec3::splat(b), Vec3::splat(c))
     }
 
     /// The transposed matrix.
@@ -85,7 +86,8 @@ impl<L: Lane> Mul for Mat3<L> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self { columns: other.columns.map(|column| self * column) }
+        let [a, b, c] = other.columns;
+        Self::from_columns(self * a, self * b, self * c)
     }
 }
 

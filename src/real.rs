@@ -65,6 +65,9 @@ pub trait Real:
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
 
+    /// The whole part, towards zero; the nearest `i64` if it is out of range.
+    fn whole_part(self) -> i64;
+
     /// The blocks' reals, one after another.
     fn flat(blocks: &[Self::Block]) -> &[Self];
 
@@ -137,6 +140,11 @@ macro_rules! real {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 f64::from(self)
+            }
+
+            #[inline(always)]
+            fn whole_part(self) -> i64 {
+                self as i64
             }
 
             #[inline(always)]

@@ -13,7 +13,7 @@ mod plane;
 
 pub use cuboid::Cuboid;
 pub use fixed_sphere::FixedSphere;
-pub use periodic::PeriodicBox;
+pub use periodic::{OpenSpace, PeriodicBox, Space};
 pub use plane::Plane;
 
 use crate::lane::Lane;

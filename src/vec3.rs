@@ -84,13 +84,27 @@ impl<L: Lane> Vec3<L> {
         )
     }
 
+    /// The lanes of the three components. Written out, since the array's own
+    /// `map` is not always inlined.
+    #[inline(always)]
+    pub fn from_arrays([x, y, z]: [L::Array; 3]) -> Self {
+        Self::new(L::from_array(x), L::from_array(y), L::from_array(z))
+    }
+
+    /// The lanes of the three components.
+    #[inline(always)]
+    pub fn to_arrays(self) -> [L::Array; 3] {
+        [self.x.to_array(), self.y.to_array(), self.z.to_array()]
+    }
+
     /// Lane `k` is element `indices[k]` of the three columns.
     ///
     /// # Panics
     /// As [`Lane::gather`].
     #[inline(always)]
     pub fn gather(columns: [&[L::Scalar]; 3], indices: &[u32]) -> Self {
-        columns.map(|column| L::gather(column, indices)).into()
+        let [x, y, z] = columns;
+        Self::new(L::gather(x, indices), L::gather(y, indices), L::gather(z, indices))
     }
 
     /// Element `indices[k]` of the three columns becomes lane `k`.
@@ -99,9 +113,10 @@ impl<L: Lane> Vec3<L> {
     /// As [`Lane::scatter`].
     #[inline(always)]
     pub fn scatter(self, columns: [&mut [L::Scalar]; 3], indices: &[u32]) {
-        for (lane, column) in self.to_array().into_iter().zip(columns) {
-            lane.scatter(column, indices);
-        }
+        let [x, y, z] = columns;
+        self.x.scatter(x, indices);
+        self.y.scatter(y, indices);
+        self.z.scatter(z, indices);
     }
 }
 

@@ -15,10 +15,10 @@
 mod common;
 
 use carom::motion::Integrator;
-use carom::motion::flight::Unbounded;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
 use carom::real::Real;
+use carom::surroundings::OpenSpace;
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
 use common::numbers::{Random, hash};
@@ -112,7 +112,7 @@ fn flights<T: Real>() -> u64 {
                 velocity.each_mut().map(Vec::as_mut_slice),
                 field,
                 T::ratio(1, 100),
-                &Unbounded,
+                OpenSpace,
             );
         }
     }

@@ -6,13 +6,13 @@ mod common;
 use carom::lane::{Lane, Mask, Twin};
 use carom::mat3::Mat3;
 use carom::motion::Integrator;
-use carom::motion::flight::Unbounded;
 use carom::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, SemiImplicitEuler, VelocityVerlet,
 };
 use carom::motion::rotation::{reference_rotation, turned};
 use carom::motion::turning::turn;
 use carom::real::Real;
+use carom::surroundings::OpenSpace;
 use carom::surroundings::PeriodicBox;
 use carom::trigonometry::{sin_cos, sin_cos_of_sum};
 use carom::vec3::Vec3;
@@ -295,25 +295,23 @@ where
                     let [x, y, z, u, v, w, ..] = swept.each_mut().map(Vec::as_mut_slice);
                     let (position, velocity) = ([x, y, z], [u, v, w]);
                     fastest[0] = integrator
-                        .flight_and_fastest::<L, _>(position, velocity, field, dt, &periodic);
+                        .flight_and_fastest::<L, _>(position, velocity, field, dt, periodic);
                 }
                 for k in 0..len {
                     let [x, y, z, u, v, w, ..] =
                         expected.each_mut().map(|column| &mut column[k..=k]);
                     let (position, velocity) = ([x, y, z], [u, v, w]);
                     fastest[1] = integrator
-                        .flight_and_fastest::<L::Scalar, _>(
-                            position, velocity, field, dt, &periodic,
-                        )
+                        .flight_and_fastest::<L::Scalar, _>(position, velocity, field, dt, periodic)
                         .greater(fastest[1]);
                 }
                 assert_eq!(bits(&swept), bits(&expected));
                 assert_eq!(fastest[0].to_bits64(), fastest[1].to_bits64());
 
                 let [x, y, z, u, v, w, ..] = swept.each_mut().map(Vec::as_mut_slice);
-                integrator.flight::<L, _>([x, y, z], [u, v, w], field, dt, &Unbounded);
+                integrator.flight::<L, _>([x, y, z], [u, v, w], field, dt, OpenSpace);
                 let [x, y, z, u, v, w, ..] = expected.each_mut().map(Vec::as_mut_slice);
-                integrator.flight::<L::Scalar, _>([x, y, z], [u, v, w], field, dt, &Unbounded);
+                integrator.flight::<L::Scalar, _>([x, y, z], [u, v, w], field, dt, OpenSpace);
                 assert_eq!(bits(&swept), bits(&expected));
             }
         }

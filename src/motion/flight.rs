@@ -1,8 +1,9 @@
 //! Sweeps of free flight over columns.
 //!
 //! ```
-//! use carom::motion::flight::{Unbounded, flight};
+//! use carom::motion::flight::flight;
 //! use carom::motion::integrator::VelocityVerlet;
+//! use carom::surroundings::OpenSpace;
 //! use carom::vec3::Vec3;
 //!
 //! // Five bodies of another program, four at a time and one more.
@@ -14,7 +15,7 @@
 //!     [&mut u, &mut v, &mut w],
 //!     gravity,
 //!     0.5,
-//!     &Unbounded,
+//!     OpenSpace,
 //! );
 //! assert_eq!((x, z, w), ([0.5; 5], [0.5; 5], [0.0; 5]));
 //! ```
@@ -24,33 +25,8 @@ use crate::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, Integrator, SemiImplicitEuler, VelocityVerlet,
 };
 use crate::motion::sweep::{Arrays, lanes_and_tail};
-use crate::real::Real;
-use crate::surroundings::PeriodicBox;
+use crate::surroundings::Space;
 use crate::vec3::Vec3;
-
-/// Where a body is that has flown to a point.
-pub trait Space<T: Real>: Sync {
-    /// The point itself, or its image inside the space.
-    fn place<L: Lane<Scalar = T>>(&self, point: Vec3<L>) -> Vec3<L>;
-}
-
-/// Space without an end.
-#[derive(Clone, Copy, Debug)]
-pub struct Unbounded;
-
-impl<T: Real> Space<T> for Unbounded {
-    #[inline(always)]
-    fn place<L: Lane<Scalar = T>>(&self, point: Vec3<L>) -> Vec3<L> {
-        point
-    }
-}
-
-impl<T: Real> Space<T> for PeriodicBox<T> {
-    #[inline(always)]
-    fn place<L: Lane<Scalar = T>>(&self, point: Vec3<L>) -> Vec3<L> {
-        self.wrap(point)
-    }
-}
 
 /// Takes one step of flight for every body: whole lanes through `L`, the rest
 /// one by one, with the same bits.
@@ -62,7 +38,7 @@ pub fn flight<L: Lane, I: FlightStep, S: Space<L::Scalar>>(
     velocity: [&mut [L::Scalar]; 3],
     acceleration: Vec3<L::Scalar>,
     dt: L::Scalar,
-    space: &S,
+    space: S,
 ) {
     sweep::<L, I, S, false>(position, velocity, acceleration, dt, space);
 }
@@ -74,7 +50,7 @@ pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Space<L::Scalar>>(
     velocity: [&mut [L::Scalar]; 3],
     acceleration: Vec3<L::Scalar>,
     dt: L::Scalar,
-    space: &S,
+    space: S,
 ) -> L::Scalar {
     sweep::<L, I, S, true>(position, velocity, acceleration, dt, space)
 }
@@ -88,7 +64,7 @@ impl Integrator {
         velocity: [&mut [L::Scalar]; 3],
         acceleration: Option<Vec3<L::Scalar>>,
         dt: L::Scalar,
-        space: &S,
+        space: S,
     ) {
         self.sweep::<L, S, false>(position, velocity, acceleration, dt, space);
     }
@@ -101,7 +77,7 @@ impl Integrator {
         velocity: [&mut [L::Scalar]; 3],
         acceleration: Option<Vec3<L::Scalar>>,
         dt: L::Scalar,
-        space: &S,
+        space: S,
     ) -> L::Scalar {
         self.sweep::<L, S, true>(position, velocity, acceleration, dt, space)
     }
@@ -112,7 +88,7 @@ impl Integrator {
         velocity: [&mut [L::Scalar]; 3],
         acceleration: Option<Vec3<L::Scalar>>,
         dt: L::Scalar,
-        space: &S,
+        space: S,
     ) -> L::Scalar {
         let run = match (acceleration, self) {
             (None, _) => sweep::<L, Coasting, S, FASTEST>,
@@ -130,7 +106,7 @@ fn sweep<L: Lane, I: FlightStep, S: Space<L::Scalar>, const FASTEST: bool>(
     velocity: [&mut [L::Scalar]; 3],
     acceleration: Vec3<L::Scalar>,
     dt: L::Scalar,
-    space: &S,
+    space: S,
 ) -> L::Scalar {
     let len = position.iter().chain(&velocity).map(|column| column.len()).min().unwrap_or(0);
     let (positions, last_positions) = lanes_and_tail::<L, 3>(position, len);
@@ -152,17 +128,17 @@ fn sweep_arrays<L: Lane, I: FlightStep, S: Space<L::Scalar>, const FASTEST: bool
     [u, v, w]: Arrays<L, 3>,
     acceleration: Vec3<L::Scalar>,
     dt: L::Scalar,
-    space: &S,
+    space: S,
 ) -> L::Scalar {
     let (acceleration, dt) = (Vec3::<L>::splat(acceleration), L::splat(dt));
     let mut fastest = L::ZERO;
     for (((((x, y), z), u), v), w) in x.iter_mut().zip(y).zip(z).zip(u).zip(v).zip(w) {
-        let position = Vec3::from([*x, *y, *z].map(L::from_array));
-        let velocity = Vec3::from([*u, *v, *w].map(L::from_array));
+        let position = Vec3::<L>::from_arrays([*x, *y, *z]);
+        let velocity = Vec3::<L>::from_arrays([*u, *v, *w]);
         let (position, velocity) = I::step(position, velocity, acceleration, dt);
-        [*x, *y, *z] = space.place(position).to_array().map(L::to_array);
+        [*x, *y, *z] = space.wrap(position).to_arrays();
         if I::CHANGES_VELOCITY {
-            [*u, *v, *w] = velocity.to_array().map(L::to_array);
+            [*u, *v, *w] = velocity.to_arrays();
         }
         if FASTEST {
             // By comparison, so that neither the order of the bodies nor the

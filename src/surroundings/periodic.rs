@@ -4,6 +4,32 @@ use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
+/// How differences of positions are measured: in open space, or to the nearest
+/// image in a [`PeriodicBox`].
+pub trait Space<T: Real>: Copy + Send + Sync {
+    /// The image of a point that represents it.
+    fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L>;
+
+    /// The shortest difference between two points' images.
+    fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L>;
+}
+
+/// Space without bounds: every point is itself, at no cost.
+#[derive(Clone, Copy, Debug)]
+pub struct OpenSpace;
+
+impl<T: Real> Space<T> for OpenSpace {
+    #[inline(always)]
+    fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L> {
+        point
+    }
+
+    #[inline(always)]
+    fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {
+        difference
+    }
+}
+
 /// A box whose opposite faces are the same place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeriodicBox<T> {
@@ -25,28 +51,27 @@ impl<T: Real> PeriodicBox<T> {
     pub fn sides(&self) -> Vec3<T> {
         self.upper - self.lower
     }
+}
 
-    /// The image of a point inside the box, for a point that left it by less
-    /// than one side.
+impl<T: Real> Space<T> for PeriodicBox<T> {
+    /// The image inside the box, however far outside the point is.
     #[inline(always)]
-    pub fn wrap<L: Lane<Scalar = T>>(&self, point: Vec3<L>) -> Vec3<L> {
-        let wrap = |c: L, low: T, high: T, side: T| {
-            let side = L::splat(side);
-            let is_below = c.lt(L::splat(low));
-            let is_above = c.ge(L::splat(high));
-            L::select(is_below, c + side, L::select(is_above, c - side, c))
+    fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L> {
+        let wrap = |c: L, low: T, high: T| {
+            let side = high - low;
+            let middle = L::splat((low + high) * T::ratio(1, 2));
+            c - ((c - middle) * L::splat(T::ONE / side)).nearest_whole() * L::splat(side)
         };
-        let sides = self.sides();
         Vec3::new(
-            wrap(point.x, self.lower.x, self.upper.x, sides.x),
-            wrap(point.y, self.lower.y, self.upper.y, sides.y),
-            wrap(point.z, self.lower.z, self.upper.z, sides.z),
+            wrap(point.x, self.lower.x, self.upper.x),
+            wrap(point.y, self.lower.y, self.upper.y),
+            wrap(point.z, self.lower.z, self.upper.z),
         )
     }
 
     /// The shortest image of a difference of two points inside the box.
     #[inline(always)]
-    pub fn nearest_image<L: Lane<Scalar = T>>(&self, difference: Vec3<L>) -> Vec3<L> {
+    fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {
         let nearest = |d: L, side: T| {
             let half = L::splat(side * T::ratio(1, 2));
             let side = L::splat(side);

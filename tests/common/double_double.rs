@@ -209,6 +209,10 @@ impl Real for DoubleDouble {
         self.0.0
     }
 
+    fn whole_part(self) -> i64 {
+        self.0.0 as i64
+    }
+
     fn flat(blocks: &[Self]) -> &[Self] {
         blocks
     }

@@ -1,0 +1,263 @@
+//! Broad phase: who can touch whom before the next search.
+//!
+//! A search sorts the bodies by the cells of a uniform grid, so that neighbours
+//! in space become neighbours in memory, and remembers every pair nearer than
+//! the *skin* and every body as near to a fixed feature. Until bodies have
+//! moved through half the skin these candidates are all that can touch. Bodies
+//! of very different sizes are sorted into one grid for each factor of two in
+//! the radius; a pair is found from the smaller one. Cost and memory are linear
+//! in the bodies, wherever they are.
+//!
+//! The contacts that the narrow phase finds among the candidates do not depend
+//! on the skin, the grid or the order of the bodies.
+
+mod candidates;
+mod grid;
+mod order;
+mod skin;
+
+pub use candidates::{Candidates, Chunk, Pair};
+use candidates::{Search, SearchedGrid, shell_ends};
+use grid::Grid;
+use order::CellOrder;
+use skin::best_skin;
+
+use crate::bodies::{Columns3, Figure, PerBody, Same, at};
+use crate::lane::Lane;
+use crate::real::Real;
+use crate::surroundings::{Feature, OpenSpace, PeriodicBox};
+use crate::vec3::Vec3;
+use crate::workers::Workers;
+
+/// Each grid takes radii down to half its greatest.
+const MOST_GRIDS: usize = 24;
+
+/// What the first search goes by: bodies in a diameter cubed, and the widest
+/// skin in diameters.
+const FIRST_DENSITY: f64 = 0.2;
+const FIRST_SKIN: f64 = 0.5;
+
+/// Bodies whose cells are found as one piece of work.
+const RANKED: usize = 1 << 14;
+
+/// What a search looks at.
+#[derive(Clone, Copy, Debug)]
+pub struct Surveyed<'a, T: Real> {
+    /// Centres, length.
+    pub position: &'a Columns3<T>,
+    /// Radii, length.
+    pub radius: &'a PerBody<T>,
+    /// The periodic box, if there is one.
+    pub periodic: Option<PeriodicBox<T>>,
+    /// What is fixed.
+    pub features: &'a [Feature<T>],
+    /// Whether bodies meet each other.
+    pub pairs: bool,
+}
+
+/// The search for candidates, with the memory that it works in.
+#[derive(Debug)]
+pub struct BroadPhase<T: Real> {
+    /// The greatest radius of each grid, coarsest first.
+    reaches: Vec<T>,
+    grids: Vec<(Grid<T>, u32)>,
+    ranks: Vec<u32>,
+    order: CellOrder,
+    /// Bodies in a diameter cubed, seen at the last search.
+    density: Option<f64>,
+    mean_diameter: f64,
+}
+
+impl<T: Real> BroadPhase<T> {
+    /// A broad phase for bodies with these radii.
+    #[must_use]
+    pub fn new(radius: &PerBody<T>, len: usize) -> Self {
+        let reaches = match radius {
+            PerBody::Same(value) => vec![*value],
+            PerBody::Each(column) => classes(column),
+        };
+        let sum: f64 = (0..len).map(|k| radius.of(k).to_f64()).sum();
+        Self {
+            reaches,
+            grids: Vec::new(),
+            ranks: Vec::new(),
+            order: CellOrder::default(),
+            density: None,
+            mean_diameter: 2.0 * sum / len.max(1) as f64,
+        }
+    }
+
+    /// The skin to search with when bodies move through `travel` in a step at
+    /// most and the last search was done with the skin `last`, lengths.
+    #[must_use]
+    pub fn skin(&self, travel: T, last: T) -> T {
+        let diameter = self.mean_diameter;
+        let best = match self.density {
+            None => best_skin(travel.to_f64() / diameter, FIRST_DENSITY).min(FIRST_SKIN),
+            // The density is only known as far as the last search went.
+            Some(density) => {
+                let best = best_skin(travel.to_f64() / diameter, density);
+                best.min(2.0 * last.to_f64() / diameter)
+            }
+        };
+        T::from_f64(diameter * best)
+    }
+
+    /// Sorts the bodies into cells for a search with this skin. Body `k` of the
+    /// order that is returned is the one to be put at place `k`.
+    pub fn sort(&mut self, surveyed: &Surveyed<'_, T>, skin: T, workers: &Workers) -> &[u32] {
+        let len = surveyed.position[0].len();
+        let (lower, upper) = bounds(surveyed.position);
+        // A margin for the rounding of coordinates far from the origin.
+        let farthest = lower
+            .to_array()
+            .into_iter()
+            .chain(upper.to_array())
+            .fold(T::ZERO, |most, c| Lane::abs(c).greater(most));
+        let margin = farthest * T::EPSILON * T::whole(16);
+
+        let mut class_counts = vec![0_usize; self.reaches.len()];
+        for k in 0..len {
+            class_counts[self.class(surveyed.radius.of(k))] += 1;
+        }
+        self.grids.clear();
+        let mut first = 0;
+        for (&reach, &count) in self.reaches.iter().zip(&class_counts) {
+            let side = (reach + reach + skin) * T::ratio(1025, 1024) + margin;
+            let most = 2 * count + 27;
+            let grid = match &surveyed.periodic {
+                Some(space) => Grid::periodic(space, side, most),
+                None => Grid::open(lower, upper, side, most),
+            };
+            self.grids.push((grid, first));
+            first += grid.len() as u32;
+        }
+
+        let mut ranks = core::mem::take(&mut self.ranks);
+        ranks.resize(len, 0);
+        let mut chunks: Vec<_> = ranks.chunks_mut(RANKED).enumerate().collect();
+        workers.each(&mut chunks, |(chunk, ranks)| {
+            for (k, rank) in ranks.iter_mut().enumerate() {
+                let k = *chunk * RANKED + k;
+                let (grid, first) = &self.grids[self.class(surveyed.radius.of(k))];
+                *rank = first + grid.rank(grid.cell(at(surveyed.position, k)));
+            }
+        });
+        self.order.sort(&ranks, first as usize);
+        self.ranks = ranks;
+        &self.order.bodies
+    }
+
+    /// Finds the candidates of a skin among bodies that stand in the order of
+    /// the last [`sort`](BroadPhase::sort).
+    pub fn search<L: Lane<Scalar = T>>(
+        &mut self,
+        surveyed: &Surveyed<'_, T>,
+        skin: T,
+        candidates: &mut Candidates,
+        workers: &Workers,
+    ) {
+        match (surveyed.radius, surveyed.periodic) {
+            (PerBody::Same(r), None) => {
+                self.search_in::<L, _, _>(surveyed, Same(*r), OpenSpace, skin, candidates, workers);
+            }
+            (PerBody::Same(r), Some(space)) => {
+                self.search_in::<L, _, _>(surveyed, Same(*r), space, skin, candidates, workers);
+            }
+            (PerBody::Each(r), None) => {
+                self.search_in::<L, _, _>(
+                    surveyed,
+                    r.padded(),
+                    OpenSpace,
+                    skin,
+                    candidates,
+                    workers,
+                );
+            }
+            (PerBody::Each(r), Some(space)) => {
+                self.search_in::<L, _, _>(surveyed, r.padded(), space, skin, candidates, workers);
+            }
+        }
+        if surveyed.pairs {
+            let reach = 1.0 + skin.to_f64() / self.mean_diameter;
+            let neighbours = candidates.pair_count() as f64 / surveyed.position[0].len() as f64;
+            let volume = 2.0 / 3.0 * core::f64::consts::PI * reach.powi(3);
+            self.density = Some(neighbours / volume);
+        }
+    }
+
+    fn search_in<L, R, S>(
+        &self,
+        surveyed: &Surveyed<'_, T>,
+        radius: R,
+        space: S,
+        skin: T,
+        candidates: &mut Candidates,
+        workers: &Workers,
+    ) where
+        L: Lane<Scalar = T>,
+        R: Figure<T>,
+        S: crate::surroundings::Space<T>,
+    {
+        let grids: Vec<_> =
+            self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();
+        candidates.begin(&grids, &self.order.starts, surveyed.features.len());
+        let search = Search {
+            position: [0, 1, 2].map(|axis| surveyed.position[axis].padded()),
+            radius,
+            space,
+            skin,
+            shell_ends: shell_ends(skin),
+            starts: &self.order.starts,
+            grids: &grids,
+        };
+        workers.each(&mut candidates.chunks, |chunk| {
+            if surveyed.pairs {
+                search.pairs::<L>(chunk);
+            }
+            search.surroundings::<L>(surveyed.features, chunk);
+        });
+    }
+
+    /// The grid for a radius.
+    #[inline(always)]
+    fn class(&self, radius: T) -> usize {
+        let mut class = 0;
+        while class + 1 < self.reaches.len() && radius <= self.reaches[class + 1] {
+            class += 1;
+        }
+        class
+    }
+
+    /// The bytes that the search works in.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.ranks.as_slice())
+            + size_of_val(self.order.starts.as_slice())
+            + size_of_val(self.order.bodies.as_slice())
+    }
+}
+
+/// The greatest radius of each occupied factor of two, coarsest first.
+fn classes<T: Real>(radii: &[T]) -> Vec<T> {
+    let mut sorted = radii.to_vec();
+    sorted.sort_unstable_by(|a, b| b.partial_cmp(a).unwrap_or(core::cmp::Ordering::Equal));
+    let mut reaches: Vec<T> = Vec::new();
+    for radius in sorted {
+        let is_smaller = reaches.last().is_none_or(|&last| radius + radius < last);
+        if is_smaller && reaches.len() < MOST_GRIDS {
+            reaches.push(radius);
+        }
+    }
+    reaches
+}
+
+/// The corners of the smallest box around all points.
+fn bounds<T: Real>(position: &Columns3<T>) -> (Vec3<T>, Vec3<T>) {
+    let bounds = position.each_ref().map(|column| {
+        let first = column.first().copied().unwrap_or(T::ZERO);
+        column.iter().fold((first, first), |(least, most), &c| (c.lesser(least), c.greater(most)))
+    });
+    let [x, y, z] = bounds;
+    (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
+}

@@ -1,0 +1,180 @@
+//! Grid: a lattice of cells that closes upon itself.
+//!
+//! A cell's neighbours are found by its three indices, each taken modulo the
+//! grid's size. In a periodic box that is the geometry itself. In open space it
+//! lets a grid of about as many cells as bodies serve bodies anywhere: one far
+//! outside only shares a cell with strangers, whom the distance test turns away.
+
+use core::ops::Range;
+
+use crate::real::Real;
+use crate::surroundings::PeriodicBox;
+use crate::vec3::Vec3;
+
+/// Cells of at least a given side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid<T> {
+    origin: Vec3<T>,
+    cells_per_length: Vec3<T>,
+    cells: [u32; 3],
+}
+
+/// Up to two runs of cells with consecutive indices.
+pub(super) type Runs = [Range<u32>; 2];
+
+impl<T: Real> Grid<T> {
+    /// A grid over the points between `lower` and `upper` with cells of at
+    /// least `side`, and no more than `most` of them.
+    pub fn open(lower: Vec3<T>, upper: Vec3<T>, side: T, most: usize) -> Self {
+        let extent = upper - lower;
+        let wanted = |length: T| (length / side).whole_part().clamp(0, 1 << 40) as u64 + 1;
+        let mut cells = extent.to_array().map(wanted);
+        while cells.iter().map(|&n| n as u128).product::<u128>() > most.max(1) as u128 {
+            let longest = (0..3).max_by_key(|&axis| cells[axis]).unwrap_or(0);
+            if cells[longest] == 1 {
+                break;
+            }
+            cells[longest] = cells[longest].div_ceil(2);
+        }
+        let per_length = T::ONE / side;
+        Self {
+            origin: lower,
+            cells_per_length: Vec3::new(per_length, per_length, per_length),
+            cells: cells.map(|n| n as u32),
+        }
+    }
+
+    /// A grid that divides a periodic box into cells of at least `side`, and no
+    /// more than about `most` of them.
+    pub fn periodic(space: &PeriodicBox<T>, side: T, most: usize) -> Self {
+        let sides = space.sides().to_array();
+        // Cells of a sparse system grow until there are few enough.
+        let mut side = side;
+        let cells = loop {
+            let cells = sides.map(|length| (length / side).whole_part().clamp(1, 1 << 30) as u32);
+            if cells.iter().map(|&n| u128::from(n)).product::<u128>() <= most.max(1) as u128 {
+                break cells;
+            }
+            side = side * T::ratio(5, 4);
+        };
+        let per_length = core::array::from_fn(|k| T::from_f64(f64::from(cells[k])) / sides[k]);
+        Self { origin: space.lower, cells_per_length: per_length.into(), cells }
+    }
+
+    /// How many cells there are.
+    pub fn len(&self) -> usize {
+        self.cells.iter().map(|&n| n as usize).product()
+    }
+
+    /// The indices of the cell that a point is in.
+    #[inline(always)]
+    pub fn cell(&self, point: Vec3<T>) -> [u32; 3] {
+        let scaled = point - self.origin;
+        let along = |length: T, per_length: T, cells: u32| {
+            let place = length * per_length;
+            let index = place.whole_part();
+            if place >= T::ZERO && index < i64::from(cells) {
+                index as u32
+            } else {
+                let floor = if place < T::ZERO { index.saturating_sub(1) } else { index };
+                floor.rem_euclid(i64::from(cells)) as u32
+            }
+        };
+        [
+            along(scaled.x, self.cells_per_length.x, self.cells[0]),
+            along(scaled.y, self.cells_per_length.y, self.cells[1]),
+            along(scaled.z, self.cells_per_length.z, self.cells[2]),
+        ]
+    }
+
+    /// The rank of a cell, the first index running fastest.
+    #[inline(always)]
+    pub fn rank(&self, [x, y, z]: [u32; 3]) -> u32 {
+        (z * self.cells[1] + y) * self.cells[0] + x
+    }
+
+    /// The indices of the cell with a rank.
+    #[inline(always)]
+    pub fn cell_of_rank(&self, rank: u32) -> [u32; 3] {
+        let row = rank / self.cells[0];
+        [rank % self.cells[0], row % self.cells[1], row / self.cells[1]]
+    }
+
+    /// Calls `visit` with the ranks of the cell's neighbours and itself, row by
+    /// row as runs, each cell once.
+    #[inline(always)]
+    pub fn for_each_neighbour_row(&self, [x, y, z]: [u32; 3], mut visit: impl FnMut(u32, Runs)) {
+        let [first, second] = neighbours(x, self.cells[0]);
+        for z in each(neighbours(z, self.cells[2])) {
+            for y in each(neighbours(y, self.cells[1])) {
+                let row = (z * self.cells[1] + y) * self.cells[0];
+                visit(
+                    row,
+                    [row + first.start..row + first.end, row + second.start..row + second.end],
+                );
+            }
+        }
+    }
+}
+
+/// `index − 1 … index + 1` modulo `count`, each once, as one run or two.
+#[inline(always)]
+fn neighbours(index: u32, count: u32) -> Runs {
+    if count < 3 {
+        [0..count, 0..0]
+    } else if index == 0 {
+        [0..2, count - 1..count]
+    } else if index == count - 1 {
+        [0..1, count - 2..count]
+    } else {
+        [index - 1..index + 2, 0..0]
+    }
+}
+
+#[inline(always)]
+fn each([first, second]: Runs) -> impl Iterator<Item = u32> {
+    first.chain(second)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn neighbour_cells(grid: &Grid<f64>, cell: [u32; 3]) -> Vec<u32> {
+        let mut found = Vec::new();
+        grid.for_each_neighbour_row(cell, |_, runs| found.extend(each(runs)));
+        found
+    }
+
+    #[test]
+    fn each_neighbour_is_met_once_for_any_size() {
+        for cells in [[1, 1, 1], [2, 1, 3], [3, 3, 3], [2, 2, 2], [5, 4, 6]] {
+            let grid =
+                Grid { origin: Vec3::ZERO, cells_per_length: Vec3::new(1.0, 1.0, 1.0), cells };
+            for z in 0..cells[2] {
+                for y in 0..cells[1] {
+                    for x in 0..cells[0] {
+                        let mut found = neighbour_cells(&grid, [x, y, z]);
+                        let count = found.len();
+                        found.sort_unstable();
+                        found.dedup();
+                        assert_eq!(found.len(), count, "a cell met twice in {cells:?}");
+                        let expected: u32 = cells.iter().map(|&n| n.min(3)).product();
+                        assert_eq!(count as u32, expected);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn cells_are_few_and_take_any_point() {
+        let upper = Vec3::new(1e12, 20.0, 20.0);
+        let grid = Grid::open(Vec3::ZERO, upper, 1.0, 1000);
+        assert!(grid.len() <= 1000 && grid.len() > 200, "{grid:?}");
+        for x in [-1e300, -0.5, 0.0, 3.5, 1e12, 1e300] {
+            let cell = grid.cell(Vec3::new(x, 1.0, -1.0));
+            assert!((grid.rank(cell) as usize) < grid.len());
+        }
+    }
+}

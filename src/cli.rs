@@ -1,0 +1,60 @@
+//! The command line, from the arguments to the exit status.
+
+mod arguments;
+mod explain;
+mod failure;
+mod interrupt;
+mod journey;
+mod outputs;
+mod progress;
+mod run;
+mod scene_argument;
+mod scenes;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command, RunArguments};
+use failure::Failure;
+
+/// Runs the program.
+pub fn main() -> ExitCode {
+    let result = match Arguments::try_parse() {
+        Ok(Arguments { command }) => match command {
+            None => run::run(&RunArguments::default()),
+            Some(Command::Run(arguments)) => run::run(&arguments),
+            Some(Command::Explain(arguments)) => explain::explain(&arguments),
+            Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+        },
+        Err(answer) => return answered(&answer),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failed(&failure),
+    }
+}
+
+/// Help, the version, or a mistake in the arguments.
+fn answered(answer: &clap::Error) -> ExitCode {
+    match answer.print().and_then(|()| io::stdout().flush()) {
+        Ok(()) => ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2)),
+        Err(error) => failed(&Failure::Print(error)),
+    }
+}
+
+fn failed(failure: &Failure) -> ExitCode {
+    if failure.is_closed_pipe() {
+        return ExitCode::SUCCESS;
+    }
+    // There is nobody to tell when standard error is closed too.
+    let _ = writeln!(io::stderr(), "error: {failure}");
+    ExitCode::from(failure.exit_status())
+}
+
+/// Prints to standard output, all of it.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut output = io::stdout().lock();
+    output.write_all(text.as_bytes()).and_then(|()| output.flush()).map_err(Failure::Print)
+}

@@ -1,0 +1,168 @@
+//! The arguments that the program takes.
+
+use std::path::PathBuf;
+
+use carom::engine::{EngineKind, Execution, Lanes};
+use carom::scene::{DEFAULT_SCENE, Precision};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+
+/// The most worker threads that can be asked for.
+pub const MOST_THREADS: u64 = 1024;
+
+/// Simulates rigid spheres in motion: free flight and elastic collisions,
+/// smooth and rough, with the same bits on every path.
+#[derive(Debug, Parser)]
+#[command(
+    name = "carom",
+    version,
+    after_help = "\
+Examples:
+  carom                                 run the built-in default scene
+  carom run superball --precision f32   run another built-in scene, in f32
+  carom scenes rough-gas > gas.toml     start a scene file of your own
+  carom run gas.toml --events e.csv     run it and write down every collision
+  carom explain gas.toml                what the engine does for it, and skips
+
+Without a command, `carom` does what `carom run` does."
+)]
+pub struct Arguments {
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run a scene and print a summary.
+    #[command(after_help = "\
+Examples:
+  carom run                                      the built-in default scene
+  carom run newtons-cradle --dt 1e-4             a built-in scene, other steps
+  carom run gas.toml --state end.csv             a scene file; write the end
+  carom run gas.toml --events e.csv --threads 1  write down every collision
+  carom run gas.toml --json | jq .energy         the summary for a program
+
+Lanes and threads change the time of a run, and no bit of its result.
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
+    Run(RunArguments),
+    /// Print what the engine does for a scene, and what it skips.
+    #[command(after_help = "\
+Examples:
+  carom explain                              the built-in default scene
+  carom explain free-flight --precision f32  a built-in scene in f32
+  carom explain gas.toml --lanes 8           a scene file in eight lanes")]
+    Explain(SceneArguments),
+    /// List the built-in scenes, or print one as a file to start from.
+    #[command(after_help = "\
+Examples:
+  carom scenes                          list them
+  carom scenes rough-gas > gas.toml     start a file of your own from one
+  carom run gas.toml                    and run it")]
+    Scenes {
+        /// The built-in scene to print.
+        name: Option<String>,
+    },
+}
+
+/// Which scene, and how it is run.
+#[derive(Args, Debug, Default)]
+pub struct SceneArguments {
+    #[arg(help = format!(
+        "A scene file, or the name of a built-in scene [default: {DEFAULT_SCENE}]"
+    ))]
+    pub scene: Option<PathBuf>,
+
+    /// In which numbers; the scene says it otherwise
+    #[arg(long, value_parser = one_of(&PRECISIONS))]
+    pub precision: Option<Precision>,
+
+    /// What moves the scene through time; the scene says it otherwise
+    #[arg(long, value_parser = one_of(&ENGINES))]
+    pub engine: Option<EngineKind>,
+
+    /// Length of a step of the stepped engine, in the scene's unit of time
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub dt: Option<f64>,
+
+    /// How long to simulate, in the scene's unit of time
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub duration: Option<f64>,
+
+    /// Worker threads [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = threads(), allow_negative_numbers = true)]
+    pub threads: Option<u64>,
+
+    /// How many numbers to work on at once
+    #[arg(long, value_name = "N", value_parser = one_of(&LANES), default_value = "auto")]
+    pub lanes: Option<Lanes>,
+
+    /// Seed of the scene's random numbers
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub seed: Option<u64>,
+}
+
+/// What `carom run` takes.
+#[derive(Args, Debug, Default)]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// Print the summary as one JSON object, and nothing else
+    #[arg(long)]
+    pub json: bool,
+
+    /// Write every collision to a file of comma-separated values
+    #[arg(long, value_name = "FILE.csv")]
+    pub events: Option<PathBuf>,
+
+    /// Write the final state to a file of comma-separated values
+    #[arg(long, value_name = "FILE.csv")]
+    pub state: Option<PathBuf>,
+}
+
+impl SceneArguments {
+    /// On what the scene is to be run.
+    pub fn execution(&self) -> Execution {
+        Execution {
+            lanes: self.lanes.unwrap_or_default(),
+            threads: self.threads.map_or(0, |threads| threads as usize),
+        }
+    }
+}
+
+const PRECISIONS: [(&str, Precision); 2] = [("f32", Precision::F32), ("f64", Precision::F64)];
+
+const ENGINES: [(&str, EngineKind); 2] =
+    [("stepped", EngineKind::Stepped), ("event-driven", EngineKind::EventDriven)];
+
+const LANES: [(&str, Lanes); 5] = [
+    ("scalar", Lanes::Scalar),
+    ("4", Lanes::Four),
+    ("8", Lanes::Eight),
+    ("16", Lanes::Sixteen),
+    ("auto", Lanes::Auto),
+];
+
+/// Takes one of a few words.
+fn one_of<V: Copy + Send + Sync + 'static>(
+    words: &'static [(&'static str, V)],
+) -> impl TypedValueParser<Value = V> {
+    let names = PossibleValuesParser::new(words.iter().map(|(name, _)| *name));
+    names.try_map(move |given| {
+        let found = words.iter().find(|(name, _)| *name == given);
+        found.map(|(_, value)| *value).ok_or("not one of the possible values")
+    })
+}
+
+/// Takes a length of time.
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("it must be a finite number greater than 0".to_owned()),
+    }
+}
+
+/// Takes a number of threads.
+fn threads() -> clap::builder::RangedU64ValueParser<u64> {
+    clap::value_parser!(u64).range(1..=MOST_THREADS)
+}

@@ -1,0 +1,66 @@
+//! Failure: why the program ends without having done what it was asked to.
+
+use std::io;
+
+use carom::engine::EngineError;
+use carom::output::OutputError;
+use carom::scene::SceneError;
+use thiserror::Error;
+
+/// Why the program ends early. Its text is the one message.
+#[derive(Debug, Error)]
+pub enum Failure {
+    /// A mistake in the scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A mistake in the arguments.
+    #[error("{0}")]
+    Argument(String),
+    /// A file that an option names and that cannot be written.
+    #[error("{option}: {source}")]
+    Open {
+        /// The option.
+        option: &'static str,
+        /// Why.
+        source: OutputError,
+    },
+    /// The engine cannot run the scene.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// A file could not be written to its end.
+    #[error(transparent)]
+    Write(#[from] OutputError),
+    /// Standard output took no more.
+    #[error("standard output could not be written: {0}")]
+    Print(io::Error),
+    /// The motion has left the numbers.
+    #[error(
+        "after {steps} steps, at time {time}, the state is no longer finite; nothing was written. \
+         A smaller --dt, or --precision f64, may keep it in range"
+    )]
+    NotFinite {
+        /// Steps taken.
+        steps: u64,
+        /// Simulated time.
+        time: f64,
+    },
+}
+
+impl Failure {
+    /// 2 for a mistake in the arguments or the scene, 1 for anything else.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Self::Scene(_) | Self::Argument(_) | Self::Open { .. } => 2,
+            Self::Engine(_) | Self::Write(_) | Self::Print(_) | Self::NotFinite { .. } => 1,
+        }
+    }
+
+    /// Whether the reader of the output went away, which is no error.
+    pub fn is_closed_pipe(&self) -> bool {
+        match self {
+            Self::Print(error) => error.kind() == io::ErrorKind::BrokenPipe,
+            Self::Write(error) => error.is_closed_pipe(),
+            _ => false,
+        }
+    }
+}

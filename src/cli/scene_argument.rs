@@ -1,0 +1,71 @@
+//! The scene that the arguments name, with the options in place of the file's
+//! values.
+
+use std::path::Path;
+
+use carom::engine::EngineKind;
+use carom::scene::{DEFAULT_SCENE, SceneFile, builtin_scenes};
+
+use super::arguments::SceneArguments;
+use super::failure::Failure;
+
+/// Reads the scene that the arguments name.
+pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
+    let mut file = match &arguments.scene {
+        None => builtin(DEFAULT_SCENE)?,
+        Some(path) if is_path(path) => SceneFile::load(path)?,
+        Some(name) => builtin(&name.to_string_lossy())?,
+    };
+    if let Some(engine) = arguments.engine {
+        file.engine = engine;
+    }
+    if let Some(precision) = arguments.precision {
+        file.precision = precision;
+    }
+    if let Some(seed) = arguments.seed {
+        file.seed = seed;
+    }
+    file.duration = arguments.duration.or(file.duration);
+    file.dt = arguments.dt.or(file.dt);
+    if file.engine == EngineKind::EventDriven {
+        let whose = match (arguments.engine, &arguments.scene) {
+            (None, Some(scene)) => format!("{}: engine = \"event-driven\"", scene.display()),
+            _ => "--engine event-driven".to_owned(),
+        };
+        return Err(Failure::Argument(format!(
+            "{whose}: this version has the stepped engine only; \
+             run the scene with `--engine stepped --dt TIME`"
+        )));
+    }
+    Ok(file)
+}
+
+/// Whether an argument means a file rather than a built-in scene.
+fn is_path(argument: &Path) -> bool {
+    let has_separator = argument.as_os_str().to_string_lossy().chars().any(std::path::is_separator);
+    let is_toml = argument.extension().is_some_and(|ending| ending == "toml");
+    has_separator || is_toml || (argument.exists() && !argument.is_dir())
+}
+
+/// The built-in scene of that name.
+pub fn builtin(name: &str) -> Result<SceneFile, Failure> {
+    SceneFile::builtin(name).ok_or_else(|| Failure::Argument(unknown(name)))
+}
+
+/// What to say to a name that no scene has.
+pub fn unknown(name: &str) -> String {
+    /// Likeness, from 0 to 1, from which a name may have been meant.
+    const LIKE: f64 = 0.75;
+    let names = builtin_scenes().iter().map(|scene| scene.name);
+    let likeness = |other: &str| strsim::jaro_winkler(&name.to_lowercase(), other);
+    let nearest = names.clone().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let meant = match nearest {
+        Some(other) if likeness(other) >= LIKE => format!(" Did you mean `{other}`?"),
+        _ => String::new(),
+    };
+    format!(
+        "there is no built-in scene `{name}`.{meant} There are {}; \
+         a scene file is given by its path, ending in .toml",
+        names.collect::<Vec<_>>().join(", ")
+    )
+}

@@ -1,0 +1,150 @@
+//! Impulse: what two bodies in contact give each other.
+//!
+//! One formula serves two spheres of any masses, radii and inertia, and a sphere
+//! with anything immovable, whose inverse mass and inertia are zero. It needs
+//! no unit normal and no root: with the offset `x` from the second centre to
+//! the first,
+//!
+//! ```text
+//! V   = v₁ − v₂ − (l₁ w₁ + l₂ w₂) × x            lᵢ = rᵢ/(r₁ + r₂)
+//! J_n = −2 (V·x) x / (x·x (1/m₁ + 1/m₂))
+//! T   = V − (V·x) x / (x·x)
+//! J_t = −2 T / (1/m₁ + 1/m₂ + (l₁²/I₁ + l₂²/I₂) x·x)
+//! ```
+//!
+//! A normalised normal would bias the energy by up to 0.76 ε per collision
+//! where `|x|` is near a power of two. The arms `lᵢ x` are in proportion to the
+//! true distance, so angular momentum is conserved also where rounding or a
+//! step has left an overlap.
+//!
+//! Source: the elastic maps of smooth and perfectly rough spheres (Bryan 1894;
+//! Chapman and Cowling, *The Mathematical Theory of Non-uniform Gases*, §11.6).
+
+use crate::lane::Lane;
+use crate::vec3::Vec3;
+
+/// One of the two bodies of a contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Party<L> {
+    /// Velocity of the centre, length per time.
+    pub velocity: Vec3<L>,
+    /// Angular velocity, rad per time.
+    pub spin: Vec3<L>,
+    /// `1/m`; 0 for an immovable body.
+    pub inverse_mass: L,
+    /// `1/I`; 0 for an immovable body.
+    pub inverse_inertia: L,
+    /// The part of the offset between the centres that is this body's arm:
+    /// `r/(r₁ + r₂)`.
+    pub share: L,
+}
+
+impl<L: Lane> Party<L> {
+    /// What never moves. The offset of a contact with it is the other body's
+    /// arm, whose share is then 1.
+    #[inline(always)]
+    #[must_use]
+    pub fn immovable() -> Self {
+        Self {
+            velocity: Vec3::ZERO,
+            spin: Vec3::ZERO,
+            inverse_mass: L::ZERO,
+            inverse_inertia: L::ZERO,
+            share: L::ZERO,
+        }
+    }
+
+    /// Adds an impulse to the body's motion.
+    #[inline(always)]
+    fn receive<const ROUGH: bool>(
+        &mut self,
+        normal: Vec3<L>,
+        tangential: Vec3<L>,
+        torque: Vec3<L>,
+    ) {
+        if ROUGH {
+            self.velocity += (normal + tangential) * self.inverse_mass;
+            self.spin -= torque * (self.share * self.inverse_inertia);
+        } else {
+            self.velocity += normal * self.inverse_mass;
+        }
+    }
+}
+
+/// The impulses of a contact on the first body; the second one receives the
+/// opposite.
+#[derive(Clone, Copy, Debug)]
+pub struct Impulse<L: Lane> {
+    /// Whether the bodies were approaching. Elsewhere both impulses are zero.
+    pub approaching: L::Mask,
+    /// Normal impulse, mass × length per time.
+    pub normal: Vec3<L>,
+    /// Tangential impulse, mass × length per time; zero between smooth bodies.
+    pub tangential: Vec3<L>,
+}
+
+/// Collides two bodies whose surfaces touch: changes their motion and returns
+/// the impulses on `a`. Bodies that do not approach each other, `V·x ≥ 0`, are
+/// left as they are, bit by bit.
+///
+/// `offset` points from the centre of `b` to the centre of `a`; from the point
+/// of contact to the centre of `a` if `b` is immovable. Its length must be
+/// within the square root of the precision's range. `ROUGH` selects the
+/// perfectly rough surface, `e = β = 1`; otherwise surfaces are frictionless,
+/// `e = 1, β = −1`, and spins are not read.
+///
+/// ```
+/// use carom::contact::{Party, collide};
+/// use carom::vec3::Vec3;
+///
+/// let rest = Party {
+///     velocity: Vec3::new(0.0, 0.0, 0.0),
+///     spin: Vec3::new(0.0, 0.0, 0.0),
+///     inverse_mass: 1.0,
+///     inverse_inertia: 10.0,
+///     share: 0.5,
+/// };
+/// let mut a = Party { velocity: Vec3::new(1.0, 0.0, 0.0), ..rest };
+/// let mut b = rest;
+/// collide::<f64, false>(Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
+/// assert_eq!(a.velocity.x, 0.0);
+/// assert_eq!(b.velocity.x, 1.0);
+/// ```
+#[inline(always)]
+pub fn collide<L: Lane, const ROUGH: bool>(
+    offset: Vec3<L>,
+    a: &mut Party<L>,
+    b: &mut Party<L>,
+) -> Impulse<L> {
+    let relative = a.velocity - b.velocity;
+    let distance_squared = offset.length_squared();
+    let approach = relative.dot(offset);
+    let approaching = approach.lt(L::ZERO);
+    let along = offset * (approach / distance_squared);
+
+    let inverse_masses = a.inverse_mass + b.inverse_mass;
+    let minus_two = L::ratio(-2, 1);
+    let mut normal = along * (minus_two / inverse_masses);
+    normal = Vec3::select(approaching, normal, Vec3::ZERO);
+    let mut tangential = Vec3::ZERO;
+    let mut torque = Vec3::ZERO;
+    if ROUGH {
+        let slip = relative - (a.spin * a.share + b.spin * b.share).cross(offset) - along;
+        let arms = a.share * a.share * a.inverse_inertia + b.share * b.share * b.inverse_inertia;
+        tangential = slip * (minus_two / (inverse_masses + arms * distance_squared));
+        tangential = Vec3::select(approaching, tangential, Vec3::ZERO);
+        torque = offset.cross(tangential);
+    }
+
+    let before = (*a, *b);
+    a.receive::<ROUGH>(normal, tangential, torque);
+    b.receive::<ROUGH>(-normal, -tangential, torque);
+    // Not left to adding zeros: −0 + 0 is another bit pattern.
+    a.velocity = Vec3::select(approaching, a.velocity, before.0.velocity);
+    b.velocity = Vec3::select(approaching, b.velocity, before.1.velocity);
+    if ROUGH {
+        a.spin = Vec3::select(approaching, a.spin, before.0.spin);
+        b.spin = Vec3::select(approaching, b.spin, before.1.spin);
+    }
+    Impulse { approaching, normal, tangential }
+}

@@ -1,0 +1,259 @@
+//! Impact: the impulses of contacts that share no body.
+
+use super::contacts::Contact;
+use super::narrow::{WIDEST, gather, offset};
+use super::path::Path;
+use super::state::State;
+use crate::bodies::{Figure, PerBody, Same};
+use crate::contact::{Impulse, Party, collide};
+use crate::lane::{Lane, Mask};
+use crate::real::Real;
+use crate::surroundings::{Feature, Space};
+use crate::vec3::Vec3;
+
+/// The motion of a body just after a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<T> {
+    pub velocity: Vec3<T>,
+    pub spin: Vec3<T>,
+}
+
+/// What a contact did.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outcome<T> {
+    /// Whether the bodies approached; nothing happened otherwise.
+    pub collided: bool,
+    /// From the second body's centre, or from the point of contact with
+    /// something fixed, to the first body's centre.
+    pub offset: Vec3<T>,
+    /// Normal impulse on the first body.
+    pub normal: Vec3<T>,
+    /// Tangential impulse on the first body.
+    pub tangential: Vec3<T>,
+    pub a: Motion<T>,
+    pub b: Motion<T>,
+}
+
+impl<T: Real> Outcome<T> {
+    const STILL: Motion<T> = Motion { velocity: Vec3::ZERO, spin: Vec3::ZERO };
+
+    /// Nothing has happened yet.
+    pub const NONE: Self = Self {
+        collided: false,
+        offset: Vec3::ZERO,
+        normal: Vec3::ZERO,
+        tangential: Vec3::ZERO,
+        a: Self::STILL,
+        b: Self::STILL,
+    };
+}
+
+/// How the contacts of a scene are worked out; chosen once by the plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Impacts<S> {
+    pub space: S,
+    /// Whether contacts take effect at their own time, not at the step's end.
+    pub within_step: bool,
+}
+
+/// The places of up to a pack's bodies, and their indices in the scene.
+struct Places {
+    places: [u32; WIDEST],
+    indices: [u32; WIDEST],
+}
+
+impl Places {
+    #[inline(always)]
+    fn new<T: Real>(state: &State<T>, width: usize, place: impl Fn(usize) -> u32) -> Self {
+        let mut these = Self { places: [0; WIDEST], indices: [0; WIDEST] };
+        for k in 0..width {
+            these.places[k] = place(k);
+            these.indices[k] = state.index[place(k) as usize];
+        }
+        these
+    }
+}
+
+impl<S> Impacts<S> {
+    /// The impulses of contacts between bodies.
+    pub fn pairs<L, T, const ROUGH: bool>(
+        &self,
+        state: &State<T>,
+        contacts: &[Contact<T>],
+        outcomes: &mut [Outcome<T>],
+    ) where
+        L: Lane<Scalar = T>,
+        T: Real,
+        S: Space<T>,
+    {
+        let whole = contacts.len() - contacts.len() % L::WIDTH;
+        for start in (0..whole).step_by(L::WIDTH) {
+            let range = start..start + L::WIDTH;
+            let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
+            self.pack_of_pairs::<L, T, ROUGH>(state, now, after);
+        }
+        for k in whole..contacts.len() {
+            self.pack_of_pairs::<T, T, ROUGH>(state, &contacts[k..=k], &mut outcomes[k..=k]);
+        }
+    }
+
+    #[inline(never)]
+    fn pack_of_pairs<L, T, const ROUGH: bool>(
+        &self,
+        state: &State<T>,
+        contacts: &[Contact<T>],
+        outcomes: &mut [Outcome<T>],
+    ) where
+        L: Lane<Scalar = T>,
+        T: Real,
+        S: Space<T>,
+    {
+        let first = Places::new(state, L::WIDTH, |k| contacts[k].a);
+        let second = Places::new(state, L::WIDTH, |k| contacts[k].b);
+        let mut a = party::<L, T, ROUGH>(state, &first);
+        let mut b = party::<L, T, ROUGH>(state, &second);
+        let mut offset = offset::<L, T, S>(state, self.space, &first.places, &second.places);
+        if self.within_step {
+            offset -= (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
+        }
+        match &state.radius {
+            PerBody::Same(_) => {
+                a.share = L::ratio(1, 2);
+                b.share = L::ratio(1, 2);
+            }
+            PerBody::Each(radius) => {
+                let first = radius.gather_places::<L>(&first);
+                let second = radius.gather_places::<L>(&second);
+                let reach = first + second;
+                a.share = first / reach;
+                b.share = second / reach;
+            }
+        }
+        let impulse = collide::<L, ROUGH>(offset, &mut a, &mut b);
+        write(outcomes, offset, impulse, a, b);
+    }
+
+    /// The impulses of contacts of bodies with one fixed feature.
+    pub fn surroundings<L, T, const ROUGH: bool>(
+        &self,
+        state: &State<T>,
+        path: &Path<T>,
+        feature: &Feature<T>,
+        contacts: &[Contact<T>],
+        outcomes: &mut [Outcome<T>],
+    ) where
+        L: Lane<Scalar = T>,
+        T: Real,
+        S: Space<T>,
+    {
+        let whole = contacts.len() - contacts.len() % L::WIDTH;
+        for start in (0..whole).step_by(L::WIDTH) {
+            let range = start..start + L::WIDTH;
+            let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
+            self.pack_at_feature::<L, T, ROUGH>(state, path, feature, now, after);
+        }
+        for k in whole..contacts.len() {
+            let (now, after) = (&contacts[k..=k], &mut outcomes[k..=k]);
+            self.pack_at_feature::<T, T, ROUGH>(state, path, feature, now, after);
+        }
+    }
+
+    #[inline(never)]
+    fn pack_at_feature<L, T, const ROUGH: bool>(
+        &self,
+        state: &State<T>,
+        path: &Path<T>,
+        feature: &Feature<T>,
+        contacts: &[Contact<T>],
+        outcomes: &mut [Outcome<T>],
+    ) where
+        L: Lane<Scalar = T>,
+        T: Real,
+        S: Space<T>,
+    {
+        let places = Places::new(state, L::WIDTH, |k| contacts[k].a);
+        let mut a = party::<L, T, ROUGH>(state, &places);
+        a.share = L::ONE;
+        let mut center = gather::<L>(&state.position, &places.places);
+        let at_end = a.velocity;
+        if self.within_step {
+            let ago = L::from_fn(|k| contacts[k].ago);
+            let velocity = path.end_velocity(at_end);
+            center = path.center(center, velocity, ago);
+            a.velocity = path.velocity(velocity, ago);
+        }
+        let at_contact = a.velocity;
+        let radius = match &state.radius {
+            PerBody::Same(radius) => Same(*radius).gather(&places.places),
+            PerBody::Each(radius) => radius.gather_places(&places),
+        };
+        let arm = feature.clearance(center, radius).arm;
+        let impulse = collide::<L, ROUGH>(arm, &mut a, &mut Party::immovable());
+        if self.within_step {
+            // The rest of the step adds what the field does, as it did before.
+            a.velocity =
+                Vec3::select(impulse.approaching, at_end + (a.velocity - at_contact), at_end);
+        }
+        write(outcomes, arm, impulse, a, Party::immovable());
+    }
+}
+
+/// A column read at places.
+trait GatherPlaces<T: Real> {
+    fn gather_places<L: Lane<Scalar = T>>(&self, places: &Places) -> L;
+}
+
+impl<T: Real> GatherPlaces<T> for crate::column::Column<T> {
+    #[inline(always)]
+    fn gather_places<L: Lane<Scalar = T>>(&self, places: &Places) -> L {
+        L::gather(self, &places.places)
+    }
+}
+
+/// The bodies at some places, their shares of the offset still open.
+#[inline(always)]
+fn party<L, T, const ROUGH: bool>(state: &State<T>, places: &Places) -> Party<L>
+where
+    L: Lane<Scalar = T>,
+    T: Real,
+{
+    let cold = |figure: &PerBody<T>| match figure {
+        PerBody::Same(value) => L::splat(*value),
+        PerBody::Each(column) => L::gather(column, &places.indices),
+    };
+    Party {
+        velocity: gather(&state.velocity, &places.places),
+        spin: if ROUGH { gather(&state.spin, &places.indices) } else { Vec3::ZERO },
+        inverse_mass: cold(&state.inverse_mass),
+        inverse_inertia: if ROUGH { cold(&state.inverse_inertia) } else { L::ZERO },
+        share: L::ZERO,
+    }
+}
+
+/// Writes the lanes of a pack of contacts one by one.
+#[inline(always)]
+fn write<L: Lane>(
+    outcomes: &mut [Outcome<L::Scalar>],
+    offset: Vec3<L>,
+    impulse: Impulse<L>,
+    a: Party<L>,
+    b: Party<L>,
+) {
+    let collided = impulse.approaching.bits();
+    let offset = offset.to_arrays();
+    let (normal, tangential) = (impulse.normal.to_arrays(), impulse.tangential.to_arrays());
+    let (a_velocity, a_spin) = (a.velocity.to_arrays(), a.spin.to_arrays());
+    let (b_velocity, b_spin) = (b.velocity.to_arrays(), b.spin.to_arrays());
+    for (k, outcome) in outcomes.iter_mut().enumerate() {
+        let lane =
+            |v: &[L::Array; 3]| Vec3::new(v[0].as_ref()[k], v[1].as_ref()[k], v[2].as_ref()[k]);
+        *outcome = Outcome {
+            collided: collided >> k & 1 != 0,
+            offset: lane(&offset),
+            normal: lane(&normal),
+            tangential: lane(&tangential),
+            a: Motion { velocity: lane(&a_velocity), spin: lane(&a_spin) },
+            b: Motion { velocity: lane(&b_velocity), spin: lane(&b_spin) },
+        };
+    }
+}

@@ -1,0 +1,78 @@
+//! Orientations: since when each body has been turning with its present spin.
+
+use super::state::State;
+use crate::column::Column;
+use crate::engine::plan::Turning;
+use crate::real::Real;
+
+/// Steps after which the counters of all bodies start anew.
+const COUNTED: u64 = 1 << 31;
+
+/// When the stored orientations were true.
+#[derive(Debug)]
+pub(super) struct Orientations<T: Real> {
+    turning: Turning,
+    /// The step, since the counters' start, at or before whose end a body was
+    /// last turned.
+    step: Vec<u32>,
+    /// By how much before the end of that step, where contacts have times.
+    ago: Option<Column<T>>,
+    counted_from: u64,
+}
+
+impl<T: Real> Orientations<T> {
+    pub fn new(turning: Turning, len: usize, is_within_step: bool) -> Self {
+        let len = if turning == Turning::FromLastContact { len } else { 0 };
+        Self {
+            turning,
+            step: vec![0; len],
+            ago: is_within_step.then(|| Column::new(len, T::ZERO)),
+            counted_from: 0,
+        }
+    }
+
+    /// How long body `index` has been turning since its stored orientation, a
+    /// time `ago` before the end of step `steps`.
+    pub fn since(&self, index: usize, steps: u64, dt: T, ago: T) -> T {
+        let since = |from: u64| T::from_f64((steps - from) as f64) * dt - ago;
+        match self.turning {
+            Turning::Never | Turning::EachStep => T::ZERO,
+            Turning::FromStart => since(0),
+            Turning::FromLastContact => {
+                let turned = since(self.counted_from + u64::from(self.step[index]));
+                self.ago.as_ref().map_or(turned, |column| turned + column[index])
+            }
+        }
+    }
+
+    /// Brings a body up to date before its spin changes.
+    #[inline]
+    pub fn catch_up(&mut self, state: &mut State<T>, index: usize, steps: u64, dt: T, ago: T) {
+        if self.turning == Turning::FromLastContact {
+            state.turn(index, self.since(index, steps, dt, ago));
+            self.step[index] = (steps - self.counted_from) as u32;
+            if let Some(column) = &mut self.ago {
+                column[index] = ago;
+            }
+        }
+    }
+
+    /// Starts the counters anew before they overflow.
+    pub fn keep_count(&mut self, state: &mut State<T>, steps: u64, dt: T) {
+        if steps - self.counted_from >= COUNTED && self.turning == Turning::FromLastContact {
+            for index in 0..self.step.len() {
+                state.turn(index, self.since(index, steps, dt, T::ZERO));
+                self.step[index] = 0;
+                if let Some(column) = &mut self.ago {
+                    column[index] = T::ZERO;
+                }
+            }
+            self.counted_from = steps;
+        }
+    }
+
+    /// The bytes of the marks.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.step.as_slice()) + self.ago.as_ref().map_or(0, Column::bytes)
+    }
+}

@@ -1,0 +1,196 @@
+//! State: the bodies as the stepped engine keeps them.
+
+use crate::bodies::{Bodies, Columns3, PerBody, at};
+use crate::broadphase::Surveyed;
+use crate::column::Column;
+use crate::mat3::Mat3;
+use crate::motion::rotation::turned;
+use crate::real::Real;
+use crate::surroundings::{Feature, PeriodicBox};
+use crate::vec3::Vec3;
+use crate::workers::Workers;
+
+/// Bodies reordered as one piece of work.
+const REORDERED: usize = 1 << 14;
+
+/// The hot figures in the order of *places*, which the broad phase renews so
+/// that neighbours in space are neighbours in memory; the cold ones, read only
+/// at a contact, in the scene's order.
+#[derive(Debug)]
+pub(super) struct State<T: Real> {
+    /// Centres by place, length.
+    pub position: Columns3<T>,
+    /// Velocities by place, length per time.
+    pub velocity: Columns3<T>,
+    /// Radii by place, length.
+    pub radius: PerBody<T>,
+    /// The scene's index of the body at each place.
+    pub index: Vec<u32>,
+    /// Angular velocities by index, rad per time.
+    pub spin: Columns3<T>,
+    /// Orientations by index; those of a scene whose spins never change stay
+    /// as they were at the start.
+    pub orientation: Option<Box<[Column<T>; 9]>>,
+    /// Masses by index.
+    pub mass: PerBody<T>,
+    /// `1/m` by index.
+    pub inverse_mass: PerBody<T>,
+    /// Moments of inertia by index.
+    pub inertia: PerBody<T>,
+    /// `1/I` by index.
+    pub inverse_inertia: PerBody<T>,
+    spare: Column<T>,
+}
+
+impl<T: Real> State<T> {
+    pub fn new(bodies: Bodies<T>) -> Self {
+        let len = bodies.len();
+        Self {
+            index: (0..len as u32).collect(),
+            inverse_mass: bodies.mass.map(|mass| T::ONE / mass),
+            inverse_inertia: bodies.inertia.map(|inertia| T::ONE / inertia),
+            position: bodies.position,
+            velocity: bodies.velocity,
+            radius: bodies.radius,
+            spin: bodies.spin,
+            orientation: bodies.orientation,
+            mass: bodies.mass,
+            inertia: bodies.inertia,
+            spare: Column::new(len, T::ZERO),
+        }
+    }
+
+    /// Puts the body at place `order[k]` to place `k`.
+    pub fn reorder(&mut self, order: &[u32], workers: &Workers) {
+        let hot = self.position.iter_mut().chain(&mut self.velocity);
+        let radius = match &mut self.radius {
+            PerBody::Same(_) => None,
+            PerBody::Each(column) => Some(column),
+        };
+        for column in hot.chain(radius) {
+            let mut chunks: Vec<_> =
+                self.spare.chunks_mut(REORDERED).zip(order.chunks(REORDERED)).collect();
+            workers.each(&mut chunks, |(places, order)| {
+                for (place, &from) in places.iter_mut().zip(*order) {
+                    *place = column[from as usize];
+                }
+            });
+            core::mem::swap(column, &mut self.spare);
+        }
+        let index: Vec<u32> = order.iter().map(|&from| self.index[from as usize]).collect();
+        self.index = index;
+    }
+
+    /// What the broad phase looks at.
+    pub fn surveyed<'a>(
+        &'a self,
+        periodic: Option<PeriodicBox<T>>,
+        features: &'a [Feature<T>],
+        pairs: bool,
+    ) -> Surveyed<'a, T> {
+        Surveyed { position: &self.position, radius: &self.radius, periodic, features, pairs }
+    }
+
+    /// Gives every body an orientation of its own.
+    pub fn own_orientations(&mut self) {
+        let len = self.index.len();
+        let rows = Mat3::<T>::IDENTITY.rows();
+        self.orientation
+            .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
+    }
+
+    /// The bodies in the scene's order, with orientations turned on by the
+    /// time that `since` gives for each index.
+    pub fn bodies(&self, since: impl Fn(usize) -> T) -> Bodies<T> {
+        let len = self.index.len();
+        let ordered = |columns: &Columns3<T>| -> Columns3<T> {
+            core::array::from_fn(|axis| {
+                let mut ordered = Column::new(len, T::ZERO);
+                for (&value, &index) in columns[axis].iter().zip(&self.index) {
+                    ordered[index as usize] = value;
+                }
+                ordered
+            })
+        };
+        let radius = match &self.radius {
+            PerBody::Same(radius) => PerBody::Same(*radius),
+            PerBody::Each(radii) => {
+                let mut ordered = Column::new(len, T::ONE);
+                for (&radius, &index) in radii.iter().zip(&self.index) {
+                    ordered[index as usize] = radius;
+                }
+                PerBody::Each(ordered)
+            }
+        };
+        let mut bodies = Bodies {
+            position: ordered(&self.position),
+            velocity: ordered(&self.velocity),
+            spin: self.spin.clone(),
+            orientation: None,
+            radius,
+            mass: self.mass.clone(),
+            inertia: self.inertia.clone(),
+        };
+        let is_turning = self.spin.iter().any(|column| column.iter().any(|&w| w != T::ZERO));
+        if is_turning || self.orientation.is_some() {
+            let mut rows = Box::new(core::array::from_fn(|_| Column::new(len, T::ZERO)));
+            for index in 0..len {
+                let turned = self.turned(index, since(index));
+                set_rows(&mut rows, index, turned);
+            }
+            bodies.orientation = Some(rows);
+        }
+        bodies
+    }
+
+    /// The orientation of the body with an index, a time after the stored one.
+    fn turned(&self, index: usize, time: T) -> Mat3<T> {
+        let stored = match &self.orientation {
+            None => Mat3::IDENTITY,
+            Some(rows) => Mat3::from_rows(core::array::from_fn(|k| rows[k][index])),
+        };
+        turned(stored, at(&self.spin, index), time)
+    }
+
+    /// Turns the stored orientation of a body on by a time of constant spin.
+    pub fn turn(&mut self, index: usize, time: T) {
+        let turned = self.turned(index, time);
+        if let Some(rows) = &mut self.orientation {
+            set_rows(rows, index, turned);
+        }
+    }
+
+    /// The bytes that the state holds.
+    pub fn bytes(&self) -> usize {
+        let three = |columns: &Columns3<T>| columns.iter().map(Column::bytes).sum::<usize>();
+        let each = |figure: &PerBody<T>| match figure {
+            PerBody::Same(_) => 0,
+            PerBody::Each(column) => column.bytes(),
+        };
+        three(&self.position)
+            + three(&self.velocity)
+            + three(&self.spin)
+            + self.orientation.as_ref().map_or(0, |rows| rows.iter().map(Column::bytes).sum())
+            + each(&self.radius)
+            + each(&self.mass)
+            + each(&self.inverse_mass)
+            + each(&self.inertia)
+            + each(&self.inverse_inertia)
+            + self.spare.bytes()
+            + size_of_val(self.index.as_slice())
+    }
+}
+
+fn set_rows<T: Real>(rows: &mut [Column<T>; 9], index: usize, orientation: Mat3<T>) {
+    for (column, element) in rows.iter_mut().zip(orientation.rows()) {
+        column[index] = element;
+    }
+}
+
+/// Writes a vector to element `index` of three columns.
+#[inline(always)]
+pub(super) fn put<T: Real>(columns: &mut Columns3<T>, index: usize, value: Vec3<T>) {
+    for (column, component) in columns.iter_mut().zip(value.to_array()) {
+        column[index] = component;
+    }
+}

@@ -1,0 +1,39 @@
+//! Tallies: sums over all collisions.
+
+use crate::observe::CompensatedSum;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// Sums that observations are made of, in the order in which contacts took
+/// effect.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tallies {
+    virial: CompensatedSum,
+    impulse: [CompensatedSum; 3],
+}
+
+impl Tallies {
+    /// Counts a collision of two bodies.
+    pub fn pair<T: Real>(&mut self, normal: Vec3<T>, offset: Vec3<T>) {
+        for (j, x) in normal.to_array().into_iter().zip(offset.to_array()) {
+            self.virial.add(j.to_f64() * x.to_f64());
+        }
+    }
+
+    /// Counts a collision with something fixed.
+    pub fn surroundings<T: Real>(&mut self, impulse: Vec3<T>) {
+        for (sum, j) in self.impulse.iter_mut().zip(impulse.to_array()) {
+            sum.add(j.to_f64());
+        }
+    }
+
+    /// `Σ J_n·x` over pairs.
+    pub fn virial(&self) -> f64 {
+        self.virial.value()
+    }
+
+    /// `Σ J` over the surroundings.
+    pub fn impulse(&self) -> [f64; 3] {
+        self.impulse.each_ref().map(CompensatedSum::value)
+    }
+}

@@ -1,0 +1,60 @@
+//! Observations: what a state amounts to.
+//!
+//! Every total is taken in `f64` from the bodies' own numbers, summed with
+//! compensation in the order of the scene file, so that it has the same bits on
+//! every path and its error is that of the terms, not of their number.
+//!
+//! ```
+//! use carom::bodies::{Bodies, PerBody};
+//! use carom::column::Column;
+//! use carom::observe::{Energy, Momentum};
+//! use carom::vec3::Vec3;
+//!
+//! let columns = |values: [f64; 3]| values.map(|value| Column::new(1, value));
+//! let ball = Bodies {
+//!     position: columns([0.0, 0.0, 2.0]),
+//!     velocity: columns([3.0, 0.0, 0.0]),
+//!     spin: columns([0.0, 0.0, 0.0]),
+//!     orientation: None,
+//!     radius: PerBody::Same(0.5),
+//!     mass: PerBody::Same(2.0),
+//!     inertia: PerBody::Same(0.2),
+//! };
+//! let energy = Energy::of(&ball, Vec3::new(0.0, 0.0, -10.0));
+//! assert_eq!(energy.to_string(), "49 (9 translational, 0 rotational, 40 potential)");
+//! assert_eq!(Momentum::of(&ball).to_string(), "(6, 0, 0)");
+//! ```
+
+mod energy;
+mod gas;
+mod momentum;
+mod state_hash;
+mod sum;
+mod totals;
+
+pub use energy::{Energy, integrator_drift};
+pub use gas::{Temperature, collision_rate, compressibility};
+pub use momentum::{AngularMomentum, Momentum};
+pub use state_hash::{StateHash, state_hash};
+pub use sum::CompensatedSum;
+pub use totals::Totals;
+
+use crate::bodies::{Bodies, PerBody};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The mass of all bodies together.
+#[must_use]
+pub fn total_mass<T: Real>(bodies: &Bodies<T>) -> f64 {
+    match &bodies.mass {
+        PerBody::Same(mass) => mass.to_f64() * bodies.len() as f64,
+        PerBody::Each(masses) => {
+            masses.iter().map(|mass| mass.to_f64()).collect::<CompensatedSum>().value()
+        }
+    }
+}
+
+/// A vector in `f64`.
+fn wide<T: Real>(vector: Vec3<T>) -> Vec3<f64> {
+    Vec3::new(vector.x.to_f64(), vector.y.to_f64(), vector.z.to_f64())
+}

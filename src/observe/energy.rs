@@ -1,0 +1,119 @@
+//! Energy of a state.
+
+use core::fmt;
+
+use crate::bodies::Bodies;
+use crate::motion::Integrator;
+use crate::observe::{CompensatedSum, wide};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// Energy of all bodies, mass × length² per time².
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Of the centres' motion: `Σ ½ m v²`.
+    pub translational: f64,
+    /// Of the spins: `Σ ½ I w²`.
+    pub rotational: f64,
+    /// In the uniform field, zero at the origin: `−Σ m g·c`.
+    pub potential: f64,
+}
+
+impl Energy {
+    /// The energy of bodies in a uniform field of acceleration `gravity`.
+    #[must_use]
+    pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<T>) -> Self {
+        let gravity = wide(gravity);
+        let [mut translational, mut rotational, mut potential] = [CompensatedSum::default(); 3];
+        for index in 0..bodies.len() {
+            let mass = bodies.mass.of(index).to_f64();
+            let inertia = bodies.inertia.of(index).to_f64();
+            translational.add(0.5 * mass * wide(bodies.velocity_of(index)).length_squared());
+            rotational.add(0.5 * inertia * wide(bodies.spin_of(index)).length_squared());
+            potential.add(-mass * gravity.dot(wide(bodies.position_of(index))));
+        }
+        Self {
+            translational: translational.value(),
+            rotational: rotational.value(),
+            // Without a field every term is −0.
+            potential: potential.value() + 0.0,
+        }
+    }
+
+    /// Translational and rotational energy.
+    #[must_use]
+    pub fn kinetic(&self) -> f64 {
+        self.translational + self.rotational
+    }
+
+    /// All of it.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        [self.translational, self.rotational, self.potential]
+            .into_iter()
+            .collect::<CompensatedSum>()
+            .value()
+    }
+
+    /// How far the total is from an earlier one, as a fraction of that one.
+    ///
+    /// Where the earlier total is 0, as a fraction of the kinetic energy now:
+    /// the zero of the potential is a convention, so a total of 0 is a state
+    /// like any other.
+    ///
+    /// ```
+    /// use carom::observe::Energy;
+    /// let before = Energy { translational: 4.0, ..Energy::default() };
+    /// let after = Energy { translational: 2.0, rotational: 1.0, potential: 0.0 };
+    /// assert_eq!(after.relative_change(&before), -0.25);
+    /// ```
+    #[must_use]
+    pub fn relative_change(&self, earlier: &Self) -> f64 {
+        let change = self.total() - earlier.total();
+        let scale = if earlier.total() == 0.0 { self.kinetic() } else { earlier.total().abs() };
+        if change == 0.0 { 0.0 } else { change / scale }
+    }
+}
+
+/// The energy that an integrator adds to bodies of total mass `mass` in a
+/// uniform field of strength `|a| = acceleration` over `steps` steps of length
+/// `dt`: `∓n Δt² |a|² M / 2`.
+///
+/// It is exact, whatever elastic collisions happen on the way, as long as they
+/// change velocities only, at the ends of steps.
+///
+/// ```
+/// use carom::motion::Integrator;
+/// use carom::observe::integrator_drift;
+/// assert_eq!(integrator_drift(Integrator::SemiImplicitEuler, 8, 0.5, 2.0, 3.0), -12.0);
+/// assert_eq!(integrator_drift(Integrator::VelocityVerlet, 8, 0.5, 2.0, 3.0), 0.0);
+/// ```
+#[must_use]
+pub fn integrator_drift(
+    integrator: Integrator,
+    steps: u64,
+    dt: f64,
+    acceleration: f64,
+    mass: f64,
+) -> f64 {
+    let sign = match integrator {
+        Integrator::SemiImplicitEuler => -1.0,
+        Integrator::ExplicitEuler => 1.0,
+        Integrator::VelocityVerlet => 0.0,
+    };
+    let speed_gained = acceleration * dt;
+    sign * steps as f64 * (speed_gained * speed_gained) * mass / 2.0
+}
+
+impl fmt::Display for Energy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} ({} translational, {} rotational, {} potential)",
+            self.total(),
+            self.translational,
+            self.rotational,
+            self.potential
+        )
+    }
+}

@@ -1,0 +1,72 @@
+//! Momentum and angular momentum of a state.
+
+use core::fmt;
+
+use serde::{Serialize, Serializer};
+
+use crate::bodies::Bodies;
+use crate::observe::{CompensatedSum, wide};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// Momentum of all bodies, `Σ m v`, mass × length per time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momentum(pub Vec3<f64>);
+
+/// Angular momentum of all bodies about the origin, `Σ (m c × v + I w)`,
+/// mass × length² per time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AngularMomentum(pub Vec3<f64>);
+
+impl Momentum {
+    /// The momentum of bodies.
+    #[must_use]
+    pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
+        Self(total(bodies, |index| {
+            wide(bodies.velocity_of(index)) * bodies.mass.of(index).to_f64()
+        }))
+    }
+}
+
+impl AngularMomentum {
+    /// The angular momentum of bodies about the origin.
+    #[must_use]
+    pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
+        Self(total(bodies, |index| {
+            let orbital = wide(bodies.position_of(index)).cross(wide(bodies.velocity_of(index)));
+            orbital * bodies.mass.of(index).to_f64()
+                + wide(bodies.spin_of(index)) * bodies.inertia.of(index).to_f64()
+        }))
+    }
+}
+
+/// The sum over the bodies of a vector of each.
+fn total<T: Real>(bodies: &Bodies<T>, term: impl Fn(usize) -> Vec3<f64>) -> Vec3<f64> {
+    let mut sums = [CompensatedSum::default(); 3];
+    for index in 0..bodies.len() {
+        for (sum, component) in sums.iter_mut().zip(term(index).to_array()) {
+            sum.add(component);
+        }
+    }
+    // A sum of negative zeros is a zero like any other.
+    sums.map(|sum| sum.value() + 0.0).into()
+}
+
+macro_rules! shown_as_vector {
+    ($type:ident) => {
+        impl fmt::Display for $type {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "({}, {}, {})", self.0.x, self.0.y, self.0.z)
+            }
+        }
+
+        impl Serialize for $type {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                self.0.to_array().serialize(serializer)
+            }
+        }
+    };
+}
+
+shown_as_vector!(Momentum);
+shown_as_vector!(AngularMomentum);

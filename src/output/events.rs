@@ -1,0 +1,175 @@
+//! Events file: one row for each collision.
+
+use std::io;
+
+use crate::engine::{Event, Partner};
+use crate::output::{Row, as_io, csv_writer};
+use crate::real::Real;
+
+/// The columns of an events file.
+///
+/// `x,y,z` is the point of contact, `n` the unit normal from `b` (or the fixed
+/// part) to `a`, `jn` and `jt` the normal and the tangential impulse on `a`,
+/// the rest the velocities and angular velocities just after. Of two bodies `a`
+/// is the one with the lesser number, and `surroundings` is empty; for
+/// something fixed it is its number, and `b` with its velocities is empty.
+pub const EVENT_COLUMNS: [&str; 26] = [
+    "time",
+    "a",
+    "b",
+    "surroundings",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "jn",
+    "jtx",
+    "jty",
+    "jtz",
+    "vax",
+    "vay",
+    "vaz",
+    "wax",
+    "way",
+    "waz",
+    "vbx",
+    "vby",
+    "vbz",
+    "wbx",
+    "wby",
+    "wbz",
+];
+
+/// Writes collisions as comma-separated values under [`EVENT_COLUMNS`], in the
+/// order in which it is told of them.
+#[derive(Debug)]
+pub struct EventWriter<W: io::Write> {
+    writer: csv::Writer<W>,
+    row: Row,
+    failure: Option<io::Error>,
+}
+
+impl<W: io::Write> EventWriter<W> {
+    /// Starts with the names of the columns.
+    ///
+    /// # Errors
+    /// If the output takes nothing.
+    pub fn new(output: W) -> io::Result<Self> {
+        let mut writer = csv_writer(output);
+        writer.write_record(EVENT_COLUMNS).map_err(as_io)?;
+        Ok(Self { writer, row: Row::default(), failure: None })
+    }
+
+    /// Writes one collision. An engine cannot be stopped in the middle of a
+    /// step: a failure is kept for [`check`](Self::check), and nothing is
+    /// written after it.
+    pub fn record<T: Real>(&mut self, event: &Event<T>) {
+        if self.failure.is_none() {
+            self.failure = self.write(event).err();
+        }
+    }
+
+    fn write<T: Real>(&mut self, event: &Event<T>) -> io::Result<()> {
+        let row = &mut self.row;
+        row.numbers([event.time]);
+        row.shown(event.a);
+        match event.partner {
+            Partner::Body { index, .. } => {
+                row.shown(index);
+                row.empty(1);
+            }
+            Partner::Surroundings(index) => {
+                row.empty(1);
+                row.shown(index);
+            }
+        }
+        row.numbers(event.point.to_array());
+        row.numbers(event.normal.to_array());
+        row.numbers([event.normal_impulse]);
+        row.numbers(event.tangential_impulse.to_array());
+        row.numbers(event.velocity.to_array());
+        row.numbers(event.spin.to_array());
+        match event.partner {
+            Partner::Body { velocity, spin, .. } => {
+                row.numbers(velocity.to_array());
+                row.numbers(spin.to_array());
+            }
+            Partner::Surroundings(_) => row.empty(6),
+        }
+        row.finish(&mut self.writer)
+    }
+
+    /// Reports a failure to write any of the collisions so far.
+    ///
+    /// # Errors
+    /// If the output took no more.
+    pub fn check(&mut self) -> io::Result<()> {
+        self.failure.take().map_or(Ok(()), Err)
+    }
+
+    /// Writes what is left, and gives the output back.
+    ///
+    /// # Errors
+    /// If the output takes no more.
+    pub fn finish(mut self) -> io::Result<W> {
+        self.check()?;
+        self.writer.into_inner().map_err(csv::IntoInnerError::into_error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vec3::Vec3;
+
+    fn event(partner: Partner<f32>) -> Event<f32> {
+        let vector = |first: f32| Vec3::new(first, first + 0.5, -first);
+        Event {
+            time: 0.1,
+            a: 3,
+            partner,
+            point: vector(1.0),
+            normal: vector(2.0),
+            normal_impulse: 0.1,
+            tangential_impulse: vector(3.0),
+            velocity: vector(4.0),
+            spin: vector(5.0),
+        }
+    }
+
+    #[test]
+    fn a_row_has_every_column_and_all_digits() {
+        let mut writer = EventWriter::new(Vec::new()).unwrap();
+        let velocity = Vec3::new(6.0, 1e-30, 0.0);
+        let spin = Vec3::new(7.0, 0.0, -0.0);
+        writer.record(&event(Partner::Body { index: 8, velocity, spin }));
+        writer.record(&event(Partner::Surroundings(2)));
+        let text = String::from_utf8(writer.finish().unwrap()).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], EVENT_COLUMNS.join(","));
+        let common = "1.0,1.5,-1.0,2.0,2.5,-2.0,0.1,3.0,3.5,-3.0,4.0,4.5,-4.0,5.0,5.5,-5.0";
+        assert_eq!(lines[1], format!("0.1,3,8,,{common},6.0,1e-30,0.0,7.0,0.0,-0.0"));
+        assert_eq!(lines[2], format!("0.1,3,,2,{common},,,,,,"));
+        assert!(lines.iter().all(|line| line.split(',').count() == 26));
+    }
+
+    #[test]
+    fn a_failure_is_kept_until_somebody_checks() {
+        struct Full;
+        impl io::Write for Full {
+            fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+                Err(io::ErrorKind::StorageFull.into())
+            }
+            fn flush(&mut self) -> io::Result<()> {
+                Ok(())
+            }
+        }
+        let mut writer = EventWriter::new(Full).unwrap();
+        for _ in 0..10_000 {
+            writer.record(&event(Partner::Surroundings(0)));
+        }
+        assert_eq!(writer.check().unwrap_err().kind(), io::ErrorKind::StorageFull);
+    }
+}

@@ -1,0 +1,339 @@
+//! Output file: one that has its name only once it is whole.
+
+use std::fs::{self, File, Metadata, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+use thiserror::Error;
+
+/// A file that cannot be written.
+#[derive(Debug, Error)]
+pub enum OutputError {
+    /// The path cannot take a file.
+    #[error("{} cannot be written: {reason}", path.display())]
+    Path {
+        /// The path as it was given.
+        path: PathBuf,
+        /// Why, and what would be right.
+        reason: String,
+    },
+    /// Writing stopped part way.
+    #[error("{} could not be written to its end: {source}", path.display())]
+    Write {
+        /// The path as it was given.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+impl OutputError {
+    /// Whether the reader at the other end of a pipe went away.
+    #[must_use]
+    pub fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Write { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+/// Where a path leads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Destination {
+    /// The program's standard output.
+    StandardOutput,
+    /// A regular file, there or not yet, by its path without links.
+    Regular(PathBuf),
+    /// A device or a pipe: written straight into, and never replaced.
+    Special(PathBuf),
+}
+
+/// How many symbolic links in a row a path may lead over.
+const MOST_LINKS: usize = 40;
+
+impl Destination {
+    /// Follows a path. `-` is the standard output.
+    ///
+    /// # Errors
+    /// If no file can be at the path.
+    pub fn of(path: &Path) -> Result<Self, OutputError> {
+        Self::follow(path).map_err(|reason| OutputError::Path { path: path.into(), reason })
+    }
+
+    fn follow(given: &Path) -> Result<Self, String> {
+        if ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]
+            .iter()
+            .any(|p| given == Path::new(p))
+        {
+            return Ok(Self::StandardOutput);
+        }
+        let mut path = given.to_path_buf();
+        for _ in 0..MOST_LINKS {
+            match fs::metadata(&path) {
+                Ok(metadata) if metadata.is_dir() => {
+                    return Err("it is a folder; give the path of a file".into());
+                }
+                Ok(metadata) if is_standard_output(&metadata) => return Ok(Self::StandardOutput),
+                Ok(metadata) if metadata.is_file() => {
+                    return path.canonicalize().map(Self::Regular).map_err(|e| e.to_string());
+                }
+                Ok(_) => return Ok(Self::Special(path)),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+                Err(error) => return Err(error.to_string()),
+            }
+            let folder = folder_of(&path);
+            match fs::read_link(&path) {
+                // A link to a file that is not there yet.
+                Ok(target) => path = folder.join(target),
+                Err(_) => return not_yet_there(&path, &folder),
+            }
+        }
+        Err("it leads over too many symbolic links".into())
+    }
+}
+
+/// A regular file that is still to be made.
+fn not_yet_there(path: &Path, folder: &Path) -> Result<Destination, String> {
+    let is_folder_name =
+        path.as_os_str().as_encoded_bytes().last().is_some_and(|&b| b == b'/' || b == b'\\');
+    let (Some(name), false) = (path.file_name(), is_folder_name) else {
+        return Err("that is no name of a file".into());
+    };
+    let folder = folder.canonicalize().map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => format!("there is no folder {}", folder.display()),
+        _ => error.to_string(),
+    })?;
+    Ok(Destination::Regular(folder.join(name)))
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.into(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// Whether a file or pipe is the one that standard output goes to, under
+/// whatever name: replacing it would cut off what is printed later.
+#[cfg(unix)]
+fn is_standard_output(metadata: &Metadata) -> bool {
+    use std::os::unix::fs::{FileTypeExt, MetadataExt};
+    let is_stream = metadata.is_file() || metadata.file_type().is_fifo();
+    let identity = |metadata: &Metadata| (metadata.dev(), metadata.ino());
+    let printed = fs::metadata("/dev/stdout");
+    is_stream && printed.is_ok_and(|printed| identity(&printed) == identity(metadata))
+}
+
+#[cfg(not(unix))]
+fn is_standard_output(_: &Metadata) -> bool {
+    false
+}
+
+/// A file under way. A regular file is written beside its final name, and gets
+/// the name, and replaces what had it, with [`finish`](OutputFile::finish):
+/// nothing half written is ever under it. Dropped before that, it leaves
+/// nothing.
+#[derive(Debug)]
+pub struct OutputFile {
+    path: PathBuf,
+    output: Output,
+}
+
+#[derive(Debug)]
+enum Output {
+    Beside { file: NamedTempFile, target: PathBuf },
+    Straight(File),
+    Standard(io::Stdout),
+}
+
+impl OutputFile {
+    /// Opens a path for writing.
+    ///
+    /// # Errors
+    /// If no file can be written there.
+    ///
+    /// ```
+    /// use std::io::Write;
+    /// use carom::output::OutputFile;
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("state.csv");
+    /// let mut file = OutputFile::open(&path)?;
+    /// file.write_all(b"id\n")?;
+    /// assert!(!path.exists());
+    /// file.finish()?;
+    /// assert_eq!(std::fs::read(&path)?, b"id\n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn open(path: &Path) -> Result<Self, OutputError> {
+        let failed = |error: io::Error| OutputError::Path {
+            path: path.into(),
+            reason: match error.kind() {
+                io::ErrorKind::PermissionDenied => "permission denied".into(),
+                _ => error.to_string(),
+            },
+        };
+        let output = match Destination::of(path)? {
+            Destination::StandardOutput => Output::Standard(io::stdout()),
+            Destination::Special(device) => {
+                Output::Straight(OpenOptions::new().write(true).open(device).map_err(failed)?)
+            }
+            Destination::Regular(target) => {
+                Output::Beside { file: beside(&target).map_err(failed)?, target }
+            }
+        };
+        Ok(Self { path: path.into(), output })
+    }
+
+    /// The temporary file that is to get the final name.
+    #[must_use]
+    pub fn temporary(&self) -> Option<&Path> {
+        match &self.output {
+            Output::Beside { file, .. } => Some(file.path()),
+            _ => None,
+        }
+    }
+
+    /// The path as it was given.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Makes an error of writing this file.
+    #[must_use]
+    pub fn error(&self, source: io::Error) -> OutputError {
+        OutputError::Write { path: self.path.clone(), source }
+    }
+
+    /// Gives the file its final name.
+    ///
+    /// # Errors
+    /// If the rest cannot be written, or the name not be given.
+    pub fn finish(mut self) -> Result<(), OutputError> {
+        self.flush().map_err(|source| self.error(source))?;
+        match self.output {
+            Output::Beside { file, target } => match file.persist(target) {
+                Ok(_) => Ok(()),
+                Err(error) => Err(OutputError::Write { path: self.path, source: error.error }),
+            },
+            Output::Straight(_) | Output::Standard(_) => Ok(()),
+        }
+    }
+}
+
+/// A temporary file in the folder of `target`, with the permissions that
+/// `target` has, or would be made with.
+fn beside(target: &Path) -> io::Result<NamedTempFile> {
+    let existing = match OpenOptions::new().write(true).open(target) {
+        Ok(file) => Some(file.metadata()?.permissions()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(error),
+    };
+    let mut builder = Builder::new();
+    builder.prefix(".carom-").suffix(".tmp");
+    #[cfg(unix)]
+    let readable_by_others = {
+        use std::os::unix::fs::PermissionsExt;
+        fs::Permissions::from_mode(0o666)
+    };
+    #[cfg(unix)]
+    builder.permissions(readable_by_others);
+    let file = builder.tempfile_in(folder_of(target))?;
+    if let Some(permissions) = existing {
+        file.as_file().set_permissions(permissions)?;
+    }
+    Ok(file)
+}
+
+impl Write for OutputFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.output {
+            Output::Beside { file, .. } => file.as_file_mut().write(bytes),
+            Output::Straight(file) => file.write(bytes),
+            Output::Standard(stdout) => stdout.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.output {
+            Output::Beside { file, .. } => file.as_file_mut().flush(),
+            Output::Straight(file) => file.flush(),
+            Output::Standard(stdout) => stdout.flush(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn dropped_it_leaves_the_old_file_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.csv");
+        fs::write(&path, "old").unwrap();
+        let mut file = OutputFile::open(&path).unwrap();
+        file.write_all(b"new").unwrap();
+        drop(file);
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["state.csv"]);
+    }
+
+    #[test]
+    fn paths_that_no_file_can_have_are_refused_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = |path: &Path| OutputFile::open(path).unwrap_err().to_string();
+        assert!(message(folder.path()).contains("it is a folder"));
+        assert!(message(&folder.path().join("no/such.csv")).contains("there is no folder"));
+        assert!(message(&folder.path().join("new/")).contains("no name of a file"));
+        assert!(message(Path::new("")).contains("no name of a file"));
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_permissions_stay() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let [there, new, link, early] =
+            ["there", "new", "link", "early"].map(|name| folder.path().join(name));
+        fs::write(&there, "old").unwrap();
+        fs::set_permissions(&there, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink("there", &link).unwrap();
+        symlink("new", &early).unwrap();
+        for path in [&link, &early] {
+            let mut file = OutputFile::open(path).unwrap();
+            file.write_all(b"written").unwrap();
+            file.finish().unwrap();
+            assert!(fs::symlink_metadata(path).unwrap().is_symlink());
+        }
+        for path in [&there, &new] {
+            assert_eq!(fs::read(path).unwrap(), b"written");
+        }
+        assert_eq!(fs::metadata(&there).unwrap().permissions().mode() & 0o777, 0o640);
+        // What the system gives any new file, not the closed door of a
+        // temporary one.
+        fs::write(folder.path().join("any"), "").unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&new), mode(&folder.path().join("any")));
+        assert_eq!(Destination::of(&link).unwrap(), Destination::of(&there).unwrap());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_device_is_written_and_never_replaced() {
+        let path = Path::new("/dev/full");
+        let mut file = OutputFile::open(path).unwrap();
+        assert!(file.temporary().is_none());
+        let error = file.write_all(b"x").unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        assert!(!fs::metadata(path).unwrap().is_file());
+    }
+}

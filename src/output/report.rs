@@ -1,0 +1,172 @@
+//! Report: the summary as a person reads it, in 80 columns.
+
+use core::fmt;
+
+use super::summary::{Summary, shortest};
+use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
+use crate::contact::Surface;
+use crate::engine::{EngineKind, Impact};
+use crate::motion::Integrator;
+
+/// The labels of a vector's rows.
+const AXES: [&str; 3] = ["  x", "  y", "  z"];
+
+/// From so many bodies on a temperature says something.
+const A_GAS: usize = 100;
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.heading(f)?;
+        writeln!(f, "\n{}", self.run())?;
+        writeln!(f, "{}", self.conserved())?;
+        let gifts = self.momentum_from();
+        if !gifts.is_empty() {
+            writeln!(f, "{gifts}")?;
+        }
+        let gas = self.gas();
+        if !gas.is_empty() {
+            writeln!(f, "{gas}")?;
+        }
+        writeln!(f, "state hash  {}", self.state_hash)?;
+        writeln!(f, "All quantities are in the scene's own units.")
+    }
+}
+
+impl Summary {
+    fn heading(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let surface = match self.setup.surface {
+            Surface::Smooth => "smooth",
+            Surface::Rough => "rough",
+        };
+        let spheres = counted(self.setup.bodies as u64, &format!("{surface} sphere"));
+        writeln!(f, "{}: {spheres} in {}", self.setup.scene, self.setup.precision)
+    }
+
+    fn run(&self) -> Table {
+        let mut table = Table::of_texts();
+        let mut line = |label: &str, text: String| table.row(label, [text]);
+        line("  engine", self.engine_words());
+        let steps = counted(self.steps, "step");
+        line("  time", format!("{} in {steps} of {}", self.time_words(), plain(self.setup.dt)));
+        line(
+            "  collisions",
+            format!(
+                "{} between spheres, {} with surroundings",
+                grouped(self.collisions.pairs),
+                grouped(self.collisions.surroundings)
+            ),
+        );
+        line(
+            "  run in",
+            format!(
+                "{} on {} with {}",
+                seconds(self.wall_seconds),
+                counted(self.setup.threads as u64, "thread"),
+                counted(self.setup.lanes as u64, "lane")
+            ),
+        );
+        let nanoseconds = 1e9 / self.body_steps_per_second;
+        let mut speed = format!("{} ns per body and step", rounded(nanoseconds));
+        if self.collisions_per_second > 0.0 {
+            speed += &format!(", {} collisions per second", rounded(self.collisions_per_second));
+        }
+        line("  speed", speed);
+        table
+    }
+
+    /// The time, in digits of the run's own precision.
+    fn time_words(&self) -> String {
+        match self.setup.precision {
+            "f32" => plain(shortest(self.time as f32)),
+            _ => plain(self.time),
+        }
+    }
+
+    fn engine_words(&self) -> String {
+        match self.setup.engine {
+            EngineKind::EventDriven => "event-driven".to_owned(),
+            EngineKind::Stepped => {
+                let integrator = match self.setup.integrator {
+                    Integrator::SemiImplicitEuler => "semi-implicit Euler",
+                    Integrator::ExplicitEuler => "explicit Euler",
+                    Integrator::VelocityVerlet => "velocity Verlet",
+                };
+                let impact = match self.setup.impact {
+                    Impact::EndOfStep => "impacts at the end of a step",
+                    Impact::SubStep => "impacts at their time within a step",
+                };
+                format!("stepped, {integrator}, {impact}")
+            }
+        }
+    }
+
+    fn conserved(&self) -> Table {
+        let energy = &self.energy;
+        let (before, after) = (&energy.initial_parts, &energy.parts);
+        let mut table = Table::default();
+        table.row("", ["initial", "final", "change"].map(str::to_owned));
+        table.row("energy", []);
+        let mut row = |label: &str, initial: f64, end: f64| {
+            table.row(label, [digits(initial), digits(end), difference(end - initial)]);
+        };
+        row("  translational", before.translational, after.translational);
+        row("  rotational", before.rotational, after.rotational);
+        row("  potential", before.potential, after.potential);
+        row("  total", energy.initial, energy.end);
+        let mut note = |label: &str, value: f64| {
+            table.row(label, [String::new(), String::new(), difference(value)]);
+        };
+        note("  relative", energy.relative_change);
+        // Only where there is something to explain.
+        if let Some(drift) = energy.integrator_drift.filter(|drift| *drift != 0.0) {
+            note("  by integrator", drift);
+            note("  unaccounted", (energy.end - energy.initial) - drift);
+        }
+        let (momentum, angular) = (&self.momentum, &self.angular_momentum);
+        for (label, initial, end) in [
+            ("momentum", momentum.initial, momentum.end),
+            ("angular momentum about the origin", angular.initial, angular.end),
+        ] {
+            table.row(label, []);
+            for (axis, (initial, end)) in AXES.iter().zip(initial.into_iter().zip(end)) {
+                table.row(axis, [digits(initial), digits(end), difference(end - initial)]);
+            }
+        }
+        table
+    }
+
+    /// Who gave the momentum that was not there at the start.
+    fn momentum_from(&self) -> Table {
+        let mut table = Table::default();
+        let momentum = &self.momentum;
+        let mut givers = Vec::new();
+        if self.setup.fixed_parts > 0 {
+            givers.push(("surroundings", momentum.from_surroundings));
+        }
+        if self.setup.gravity != [0.0; 3] {
+            givers.push(("gravity", momentum.from_gravity));
+        }
+        if givers.is_empty() {
+            return table;
+        }
+        let names = givers.iter().map(|(name, _)| (*name).to_owned());
+        table.row("momentum from", names.chain(["unaccounted".to_owned()]));
+        for (k, axis) in AXES.iter().enumerate() {
+            let given = givers.iter().map(|(_, given)| digits(given[k]));
+            table.row(axis, given.chain([difference(momentum.balance_error[k])]));
+        }
+        table
+    }
+
+    fn gas(&self) -> Table {
+        let mut table = Table::of_texts();
+        if let (Some(factor), Some(rate)) = (self.compressibility, self.collision_rate) {
+            table.row("compressibility", [digits(factor)]);
+            table.row("collision rate", [format!("{} per body and time", digits(rate))]);
+        }
+        if let Some(temperature) = self.temperature.filter(|_| self.setup.bodies >= A_GAS) {
+            table.row("temperature", [format!("{temperature}")]);
+        }
+        table
+    }
+}

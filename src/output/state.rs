@@ -1,0 +1,58 @@
+//! State file: all bodies at one time.
+
+use std::io;
+
+use crate::bodies::Bodies;
+use crate::output::{Row, as_io, csv_writer};
+use crate::real::Real;
+
+/// The columns of a state file: number of the body, centre, velocity, angular
+/// velocity, orientation (body axes to world axes, row by row), radius, mass.
+pub const STATE_COLUMNS: [&str; 21] = [
+    "id", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "m00", "m01", "m02", "m10", "m11",
+    "m12", "m20", "m21", "m22", "radius", "mass",
+];
+
+/// Writes bodies as comma-separated values under [`STATE_COLUMNS`], in the
+/// order of the scene. Each number has the digits that read back as the same
+/// bits in the scene's precision.
+///
+/// ```
+/// # use carom::bodies::{Bodies, PerBody};
+/// # use carom::column::Column;
+/// # let columns = |values: [f64; 3]| values.map(|value| Column::new(1, value));
+/// # let ball = Bodies {
+/// #     position: columns([0.1, 0.0, 2.0]),
+/// #     velocity: columns([1e-9, 0.0, 0.0]),
+/// #     spin: columns([0.0; 3]),
+/// #     orientation: None,
+/// #     radius: PerBody::Same(0.5),
+/// #     mass: PerBody::Same(2.0),
+/// #     inertia: PerBody::Same(0.2),
+/// # };
+/// let mut text = Vec::new();
+/// carom::output::write_state(&mut text, &ball)?;
+/// let rows = String::from_utf8_lossy(&text);
+/// assert!(rows.ends_with(
+///     "\n0,0.1,0.0,2.0,1e-9,0.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.5,2.0\n"
+/// ));
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
+/// # Errors
+/// If the output takes no more.
+pub fn write_state<T: Real, W: io::Write>(output: W, bodies: &Bodies<T>) -> io::Result<()> {
+    let mut writer = csv_writer(output);
+    writer.write_record(STATE_COLUMNS).map_err(as_io)?;
+    let mut row = Row::default();
+    for index in 0..bodies.len() {
+        row.shown(index);
+        row.numbers(bodies.position_of(index).to_array());
+        row.numbers(bodies.velocity_of(index).to_array());
+        row.numbers(bodies.spin_of(index).to_array());
+        row.numbers(bodies.orientation_of(index).rows());
+        row.numbers([bodies.radius.of(index), bodies.mass.of(index)]);
+        row.finish(&mut writer)?;
+    }
+    writer.flush()
+}

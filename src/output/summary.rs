@@ -1,0 +1,284 @@
+//! Summary: what a run was and what came of it.
+
+use serde::Serialize;
+
+use crate::contact::Surface;
+use crate::engine::{Collisions, EngineKind, Impact};
+use crate::motion::Integrator;
+use crate::observe::{
+    AngularMomentum, Energy, Momentum, StateHash, Temperature, Totals, collision_rate,
+    compressibility, integrator_drift, total_mass,
+};
+use crate::real::Real;
+use crate::scene::Scene;
+use crate::vec3::Vec3;
+
+/// What was run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Setup {
+    /// Name of the scene.
+    pub scene: String,
+    /// In which numbers.
+    pub precision: &'static str,
+    /// How many numbers a sweep over the bodies works on at once.
+    pub lanes: usize,
+    /// Threads that worked.
+    pub threads: usize,
+    /// What moved the scene through time.
+    pub engine: EngineKind,
+    /// How a step of free flight was taken.
+    pub integrator: Integrator,
+    /// Where inside a step a contact took effect.
+    pub impact: Impact,
+    /// The surfaces of all bodies.
+    pub surface: Surface,
+    /// The uniform acceleration, length per time².
+    #[serde(skip)]
+    pub gravity: [f64; 3],
+    /// How many fixed parts there are.
+    pub fixed_parts: usize,
+    /// Whether space closes upon itself.
+    pub periodic: bool,
+    /// Length of a step, time.
+    pub dt: f64,
+    /// How many bodies.
+    pub bodies: usize,
+    /// Their mass together.
+    pub total_mass: f64,
+}
+
+impl Setup {
+    /// A run of a scene by steps, in one lane on one thread.
+    #[must_use]
+    pub fn of<T: Real>(scene: &Scene<T>) -> Self {
+        Self {
+            scene: scene.name.clone(),
+            precision: T::NAME,
+            lanes: 1,
+            threads: 1,
+            engine: scene.engine,
+            integrator: scene.stepped.integrator,
+            impact: scene.stepped.impact,
+            surface: scene.surface,
+            gravity: scene.gravity.to_array().map(T::to_f64),
+            fixed_parts: scene.surroundings.len(),
+            periodic: scene.periodic.is_some(),
+            dt: shortest(T::from_f64(scene.stepped.dt.unwrap_or(0.0))),
+            bodies: scene.bodies.len(),
+            total_mass: total_mass(&scene.bodies),
+        }
+    }
+}
+
+/// What an engine did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Work {
+    /// Simulated time.
+    pub time: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Collisions counted.
+    pub collisions: Collisions,
+    /// The impulse of the surroundings on the bodies, mass × length per time.
+    pub impulse_from_surroundings: [f64; 3],
+    /// `Σ σ|J_n|` over the pair collisions, mass × length² per time.
+    pub virial: f64,
+    /// Mean translational temperature over the run; `None` for fewer than two
+    /// bodies.
+    pub mean_temperature: Option<f64>,
+    /// Time on the clock on the wall, seconds.
+    pub wall_seconds: f64,
+}
+
+/// The three kinds of energy.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EnergyParts {
+    /// Of the centres' motion.
+    pub translational: f64,
+    /// Of the spins.
+    pub rotational: f64,
+    /// In the uniform field, zero at the origin.
+    pub potential: f64,
+}
+
+/// Energy before and after.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EnergySummary {
+    /// All of it at the start.
+    pub initial: f64,
+    /// All of it at the end.
+    #[serde(rename = "final")]
+    pub end: f64,
+    /// `(final − initial) / |initial|`, see [`Energy::relative_change`].
+    pub relative_change: f64,
+    /// The parts at the end.
+    #[serde(flatten)]
+    pub parts: EnergyParts,
+    /// The parts at the start.
+    pub initial_parts: EnergyParts,
+    /// The part of the change that belongs to the integrator, where an exact
+    /// law gives it ([`integrator_drift`]).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub integrator_drift: Option<f64>,
+}
+
+/// Momentum before and after, and who gave what.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MomentumSummary {
+    /// At the start.
+    pub initial: [f64; 3],
+    /// At the end.
+    #[serde(rename = "final")]
+    pub end: [f64; 3],
+    /// Given by what is fixed.
+    pub from_surroundings: [f64; 3],
+    /// Given by gravity: mass × acceleration × time.
+    pub from_gravity: [f64; 3],
+    /// What nobody gave: final − initial − the two above.
+    pub balance_error: [f64; 3],
+}
+
+/// Angular momentum about the origin before and after.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct AngularMomentumSummary {
+    /// At the start.
+    pub initial: [f64; 3],
+    /// At the end.
+    #[serde(rename = "final")]
+    pub end: [f64; 3],
+}
+
+/// The summary of a run, in the scene's own units. Its `Display` is for a
+/// person; serialised it is the one object of the program's `--json`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// What was run.
+    #[serde(flatten)]
+    pub setup: Setup,
+    /// Simulated time.
+    pub time: f64,
+    /// Steps taken.
+    pub steps: u64,
+    /// Collisions counted.
+    pub collisions: Collisions,
+    /// Energy, mass × length² per time².
+    pub energy: EnergySummary,
+    /// Momentum, mass × length per time.
+    pub momentum: MomentumSummary,
+    /// Angular momentum about the origin, mass × length² per time.
+    pub angular_momentum: AngularMomentumSummary,
+    /// Temperature at the end, energy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Temperature>,
+    /// `Z = pV / NkT`, in a periodic box ([`compressibility`]).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compressibility: Option<f64>,
+    /// Collisions with others per body and time, in a periodic box.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub collision_rate: Option<f64>,
+    /// Hash of the bits of the final state.
+    pub state_hash: StateHash,
+    /// Time on the clock on the wall, seconds.
+    pub wall_seconds: f64,
+    /// Collisions of both kinds per second on the wall.
+    pub collisions_per_second: f64,
+    /// Bodies × steps per second on the wall.
+    pub body_steps_per_second: f64,
+}
+
+impl Summary {
+    /// Puts together what was run, the totals before and after, and what the
+    /// engine did on the way.
+    #[must_use]
+    pub fn new(
+        setup: Setup,
+        before: &Totals,
+        after: &Totals,
+        temperature: Option<Temperature>,
+        state_hash: StateHash,
+        work: &Work,
+    ) -> Self {
+        let Work { time, steps, collisions, wall_seconds, .. } = *work;
+        let per_second = |count: f64| if wall_seconds > 0.0 { count / wall_seconds } else { 0.0 };
+        let in_box = |figure: &dyn Fn() -> f64| setup.periodic.then(figure);
+        Self {
+            time,
+            steps,
+            collisions,
+            energy: EnergySummary::new(&setup, &before.energy, &after.energy, work),
+            momentum: MomentumSummary::new(&setup, before.momentum, after.momentum, work),
+            angular_momentum: AngularMomentumSummary::new(
+                before.angular_momentum,
+                after.angular_momentum,
+            ),
+            temperature,
+            compressibility: in_box(&|| {
+                let mean = work.mean_temperature.unwrap_or(0.0);
+                compressibility(setup.bodies, work.virial, mean, time)
+            }),
+            collision_rate: in_box(&|| collision_rate(setup.bodies, collisions.pairs, time)),
+            state_hash,
+            wall_seconds,
+            collisions_per_second: per_second((collisions.pairs + collisions.surroundings) as f64),
+            body_steps_per_second: per_second(setup.bodies as f64 * steps as f64),
+            setup,
+        }
+    }
+}
+
+impl EnergySummary {
+    fn new(setup: &Setup, before: &Energy, after: &Energy, work: &Work) -> Self {
+        let parts = |energy: &Energy| EnergyParts {
+            translational: energy.translational,
+            rotational: energy.rotational,
+            potential: energy.potential,
+        };
+        let collisions = work.collisions.pairs + work.collisions.surroundings;
+        // Where space wraps, so does the potential; an impact within a step
+        // moves bodies too.
+        let has_law = !setup.periodic && (setup.impact == Impact::EndOfStep || collisions == 0);
+        let drift = || {
+            let acceleration = Vec3::from(setup.gravity).length();
+            integrator_drift(setup.integrator, work.steps, setup.dt, acceleration, setup.total_mass)
+        };
+        Self {
+            initial: before.total(),
+            end: after.total(),
+            relative_change: after.relative_change(before),
+            parts: parts(after),
+            initial_parts: parts(before),
+            integrator_drift: has_law.then(drift),
+        }
+    }
+}
+
+impl MomentumSummary {
+    fn new(setup: &Setup, before: Momentum, after: Momentum, work: &Work) -> Self {
+        let (initial, end) = (before.0.to_array(), after.0.to_array());
+        let from_surroundings = work.impulse_from_surroundings;
+        // A component without gravity gets 0, not −0.
+        let from_gravity = setup.gravity.map(|g| setup.total_mass * g * work.time + 0.0);
+        let balance_error = core::array::from_fn(|k| {
+            ((end[k] - initial[k]) - from_surroundings[k]) - from_gravity[k]
+        });
+        Self { initial, end, from_surroundings, from_gravity, balance_error }
+    }
+}
+
+impl AngularMomentumSummary {
+    fn new(before: AngularMomentum, after: AngularMomentum) -> Self {
+        Self { initial: before.0.to_array(), end: after.0.to_array() }
+    }
+}
+
+/// The `f64` with the digits that a number of any precision is known by: `0.1`
+/// for the `f32` nearest to it, not `0.10000000149011612`.
+///
+/// ```
+/// assert_eq!(carom::output::shortest(0.1_f32), 0.1);
+/// assert_eq!(carom::output::shortest(0.1_f64), 0.1);
+/// ```
+#[must_use]
+pub fn shortest<T: Real>(value: T) -> f64 {
+    format!("{value:?}").parse().unwrap_or_else(|_| value.to_f64())
+}

@@ -1,0 +1,45 @@
+//! Built-in scenes: files that come with the program, to run and to start from.
+
+/// A scene file that comes with the program.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct BuiltinScene {
+    /// What to call it by.
+    pub name: &'static str,
+    /// What it shows, in a line.
+    pub summary: &'static str,
+    /// The file.
+    pub text: &'static str,
+}
+
+/// The scene that is run when none is named.
+pub const DEFAULT_SCENE: &str = "rough-gas";
+
+macro_rules! scenes {
+    ($($name:literal: $summary:literal,)*) => {
+        &[$(BuiltinScene {
+            name: $name,
+            summary: $summary,
+            text: include_str!(concat!("builtin/", $name, ".toml")),
+        },)*]
+    };
+}
+
+/// All built-in scenes, the default first.
+///
+/// ```
+/// use carom::scene::{DEFAULT_SCENE, builtin_scenes};
+/// assert_eq!(builtin_scenes()[0].name, DEFAULT_SCENE);
+/// ```
+#[must_use]
+pub fn builtin_scenes() -> &'static [BuiltinScene] {
+    scenes! {
+        "rough-gas": "20,000 rough spheres in a container under gravity",
+        "bouncing-ball": "a ball on a floor, after 1,000 bounces as high as at the start",
+        "newtons-cradle": "five balls in a row, one of them swung in",
+        "superball": "a rough ball between floor and ceiling, where it turns back",
+        "hard-sphere-fluid": "10,976 smooth spheres in a periodic cube at density 0.5",
+        "mixture": "spheres of many sizes and masses, 1 to 10, in a container",
+        "free-flight": "100,000 spinning spheres that meet nobody",
+    }
+}

@@ -1,0 +1,259 @@
+//! Checks of the bodies of a scene, after everything is rounded to its
+//! precision: what they make together with each other and with what is fixed.
+
+use core::ops::Range;
+
+use super::Encounters;
+use super::builder::SceneBuilder;
+use super::error::{Problem, SceneError};
+use super::neighbours::{Neighbours, largest, tolerance};
+use crate::bodies::{Bodies, Columns3, PerBody};
+use crate::mat3::Mat3;
+use crate::real::Real;
+use crate::surroundings::{Feature, PeriodicBox, Shape};
+use crate::vec3::Vec3;
+
+/// A mistake of one body: the key of its entry, and the problem.
+pub(super) type Found = (usize, &'static str, Problem);
+
+/// Checks all bodies. Centres on the upper face of the periodic box move to
+/// the lower one, which is the same place.
+pub(super) fn bodies<T: Real>(
+    builder: &SceneBuilder<T>,
+    periodic: Option<PeriodicBox<T>>,
+    mut bodies: Bodies<T>,
+    ranges: &[Range<usize>],
+) -> Result<Bodies<T>, SceneError> {
+    let of_entry = |(body, key, problem): Found| {
+        let entry = ranges.partition_point(|range| range.end <= body);
+        let dot = if key.is_empty() { "" } else { "." };
+        builder.origin.error(format!("spheres[{entry}]{dot}{key}"), problem)
+    };
+    figures(&bodies).map_err(of_entry)?;
+    motion(&bodies).map_err(of_entry)?;
+    orientation(&bodies).map_err(of_entry)?;
+    if let Some(space) = &periodic {
+        if builder.encounters == Encounters::All {
+            sides(space, &bodies).map_err(|problem| builder.origin.error("periodic", problem))?;
+        }
+        wrap(space, &mut bodies).map_err(of_entry)?;
+    }
+    if builder.encounters != Encounters::None {
+        for (index, given) in builder.surroundings.iter().enumerate() {
+            if let Some(space) = &periodic {
+                within(&given.rounded, space, &bodies).map_err(|problem| {
+                    builder.origin.error(format!("surroundings[{index}]"), problem)
+                })?;
+            }
+            surroundings(index, &given.rounded, &bodies).map_err(of_entry)?;
+        }
+    }
+    if builder.encounters == Encounters::All {
+        overlaps(periodic, &bodies).map_err(of_entry)?;
+    }
+    Ok(bodies)
+}
+
+/// Radii, masses and moments of inertia.
+pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+    let figures =
+        [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
+    for (key, figure) in figures {
+        let values = match figure {
+            PerBody::Same(value) => core::slice::from_ref(value),
+            PerBody::Each(column) => column,
+        };
+        let wrong = values.iter().position(|value| !(*value > T::ZERO && value.is_finite()));
+        if let Some(body) = wrong {
+            let what = if key == "inertia" { "moment of inertia" } else { key };
+            let found = format!(
+                "such that the {what} of body {body} is {:?} in {}",
+                values[body].to_f64(),
+                T::NAME
+            );
+            let wanted = "it must be finite and greater than 0".to_owned();
+            return Err((body, "", Problem::Value { found, wanted }));
+        }
+    }
+    Ok(())
+}
+
+/// Places, velocities and spins.
+fn motion<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+    let vectors: [(&str, &Columns3<T>); 3] =
+        [("position", &bodies.position), ("velocity", &bodies.velocity), ("spin", &bodies.spin)];
+    for (what, columns) in vectors {
+        for column in columns {
+            if let Some(body) = column.iter().position(|value| !value.is_finite()) {
+                let found = format!("such that the {what} of body {body} is not finite");
+                let wanted = format!("it must be a number that {} can hold", T::NAME);
+                return Err((body, "", Problem::Value { found, wanted }));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Orientations of bodies that came ready.
+fn orientation<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+    if bodies.orientation.is_none() {
+        return Ok(());
+    }
+    for body in 0..bodies.len() {
+        let m = bodies.orientation_of(body);
+        let [a, b, c] = m.columns;
+        let error = (m.transpose() * m - Mat3::IDENTITY).rows();
+        let is_orthonormal = error.iter().all(|element| element.to_f64().abs() < 1e-3);
+        if !(is_orthonormal && a.cross(b).dot(c) > T::ZERO) {
+            let found = format!("no rotation for body {body}");
+            let wanted = "its columns must be orthonormal and right-handed".to_owned();
+            return Err((body, "orientation", Problem::Value { found, wanted }));
+        }
+    }
+    Ok(())
+}
+
+/// Of all images of two spheres, only the nearest may be able to touch. Two
+/// images of a sphere are a side apart, so the farther one of two is at least
+/// half a side away: that has to be a contact distance or more.
+fn sides<T: Real>(space: &PeriodicBox<T>, bodies: &Bodies<T>) -> Result<(), Problem> {
+    let needed = 4.0 * bodies.radius.greatest().to_f64();
+    let sides = space.sides().to_array().map(T::to_f64);
+    let limit = needed * (1.0 - 8.0 * T::EPSILON.to_f64());
+    match sides.iter().find(|side| **side < limit) {
+        None => Ok(()),
+        Some(side) => Err(Problem::Value {
+            found: format!("{side:?} wide"),
+            wanted: format!(
+                "a side must be at least twice the greatest diameter, {needed:?} here, so that \
+                 of all images of a sphere only the nearest can touch another"
+            ),
+        }),
+    }
+}
+
+/// All centres are inside the periodic box.
+fn wrap<T: Real>(space: &PeriodicBox<T>, bodies: &mut Bodies<T>) -> Result<(), Found> {
+    let [lower, upper] = [space.lower.to_array(), space.upper.to_array()];
+    for (axis, column) in bodies.position.iter_mut().enumerate() {
+        for (body, place) in column.iter_mut().enumerate() {
+            let beyond = lower[axis] - *place;
+            let beyond = if beyond > T::ZERO { beyond } else { *place - upper[axis] };
+            if beyond > T::ZERO {
+                let problem = Problem::Misplaced {
+                    body,
+                    beyond: "outside of the periodic box".to_owned(),
+                    depth: beyond.to_f64(),
+                    wanted: "every centre must be between lower and upper",
+                };
+                return Err((body, "", problem));
+            }
+            if *place == upper[axis] {
+                *place = lower[axis];
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is solid in a periodic box must be met from one side of it only: the
+/// images of what is fixed are not looked for.
+fn within<T: Real>(
+    shape: &Shape<T>,
+    space: &PeriodicBox<T>,
+    bodies: &Bodies<T>,
+) -> Result<(), Problem> {
+    let [lower, upper] = match shape {
+        Shape::Cuboid(cuboid) => [cuboid.lower, cuboid.upper],
+        Shape::FixedSphere(sphere) => {
+            let reach = [sphere.radius; 3].into();
+            [sphere.center - reach, sphere.center + reach]
+        }
+        Shape::Plane(_) => return Ok(()),
+    };
+    let radius = bodies.radius.greatest();
+    let [low, high] = [(lower - space.lower).to_array(), (space.upper - upper).to_array()];
+    if low.iter().chain(&high).all(|margin| *margin >= radius) {
+        return Ok(());
+    }
+    Err(Problem::Value {
+        found: "too near to the faces of the periodic box".to_owned(),
+        wanted: format!(
+            "there must be room for the greatest radius, {:?}, on every side of it",
+            radius.to_f64()
+        ),
+    })
+}
+
+/// No body is inside of something solid, or outside of its container.
+fn surroundings<T: Real>(index: usize, shape: &Shape<T>, bodies: &Bodies<T>) -> Result<(), Found> {
+    let epsilon = T::EPSILON.to_f64();
+    for feature in shape.features() {
+        let far = farthest(&feature);
+        for body in 0..bodies.len() {
+            let center = bodies.position_of(body);
+            let radius = bodies.radius.of(body);
+            let gap = feature.clearance(center, radius).gap.to_f64();
+            let coordinate = largest(center.to_array().map(T::to_f64)) + far;
+            if gap >= -tolerance(epsilon, coordinate, radius.to_f64()) {
+                continue;
+            }
+            let (beyond, wanted) = match shape.interior() {
+                Some(_) => (
+                    format!("outside of its container, surroundings[{index}]"),
+                    "every sphere must be wholly inside of it",
+                ),
+                None => (
+                    format!("inside of surroundings[{index}], which is solid"),
+                    "a sphere may touch it from outside",
+                ),
+            };
+            let problem = Problem::Misplaced { body, beyond, depth: -gap, wanted };
+            return Err((body, "", problem));
+        }
+    }
+    Ok(())
+}
+
+/// The largest coordinate that a feature's clearance is made of.
+fn farthest<T: Real>(feature: &Feature<T>) -> f64 {
+    let far = |point: Vec3<T>| largest(point.to_array().map(T::to_f64));
+    match feature {
+        Feature::Plane(plane) => far(plane.point),
+        Feature::Cuboid(cuboid) => far(cuboid.lower).max(far(cuboid.upper)),
+        Feature::FixedSphere(sphere) => far(sphere.center) + sphere.radius.to_f64(),
+    }
+}
+
+/// No two bodies overlap. The largest go first, and each then meets only
+/// bodies of its own size or larger: the time is linear in their number.
+fn overlaps<T: Real>(periodic: Option<PeriodicBox<T>>, bodies: &Bodies<T>) -> Result<(), Found> {
+    let space = periodic.map(|space| {
+        let corner = |point: Vec3<T>| point.to_array().map(T::to_f64);
+        PeriodicBox::new(corner(space.lower), corner(space.upper))
+    });
+    let greatest = bodies.radius.greatest().to_f64();
+    let mut table = Neighbours::new(bodies.len(), greatest, T::EPSILON.to_f64(), space);
+    let finest = match &bodies.radius {
+        PerBody::Same(_) => 0,
+        PerBody::Each(column) => {
+            column.iter().map(|radius| table.level(radius.to_f64())).max().unwrap_or(0)
+        }
+    };
+    for level in 0..=finest {
+        let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
+        let radius = |body: u32| bodies.radius.of(body as usize).to_f64();
+        let mut order: Vec<u32> = (0..bodies.len() as u32)
+            .filter(|body| finest == 0 || table.level(radius(*body)) == level)
+            .collect();
+        order.sort_by_cached_key(|body| table.order(level, center(*body)));
+        for body in order {
+            if let Some(other) = table.overlapping(center(body), radius(body)) {
+                let (a, b) = (body.min(other.id) as usize, body.max(other.id) as usize);
+                return Err((b, "", Problem::Overlap { a, b, depth: other.depth }));
+            }
+            table.insert(body, center(body), radius(body));
+        }
+    }
+    Ok(())
+}

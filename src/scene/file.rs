@@ -1,0 +1,327 @@
+//! The scene file: from TOML to a builder.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::builder::SceneBuilder;
+use super::error::{Problem, SceneError};
+use super::origin::Origin;
+use super::raw::{
+    Number, RawPeriodic, RawScene, RawShape, RawSpheres, RawSurroundings, Vector, Whole,
+};
+use super::spheres::{Make, Sphere, Spheres};
+use super::{Precision, Scene, builtin};
+use crate::engine::EngineKind;
+use crate::real::Real;
+use crate::surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane, Shape};
+
+/// A scene file, read but not yet built: the precision is still to choose.
+///
+/// | At the top | Default | |
+/// |---|---|---|
+/// | `precision` | `"f64"` | or `"f32"` |
+/// | `engine` | `"stepped"` | or `"event-driven"` |
+/// | `duration` | | time; a run needs it |
+/// | `gravity` | `[0, 0, 0]` | length per time² |
+/// | `seed` | 0 | of all random numbers |
+/// | `encounters` | `"all"` | who can meet whom; or `"surroundings"`, `"none"` |
+/// | `periodic` | | a table with `lower` and `upper`, or `"cube"`, sized by a `number_density` |
+///
+/// | `[stepped]` | Default | |
+/// |---|---|---|
+/// | `dt` | | time; a scene of the stepped engine needs it |
+/// | `integrator` | `"semi-implicit-euler"` | or `"explicit-euler"`, `"velocity-verlet"` |
+/// | `impact` | `"end-of-step"` | or `"sub-step"` |
+/// | `orientation` | `"when-asked"` | or `"each-step"` |
+///
+/// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
+/// `[[surroundings]]` have a `shape`: a `"plane"` with `point` and `normal` (of
+/// any length, out of the solid), a `"box"` with `lower`, `upper` and `inside`, a
+/// `"sphere"` with `center`, `radius` and `inside`; `inside = true` makes a
+/// container.
+///
+/// | `[[spheres]]` | Default | |
+/// |---|---|---|
+/// | `position` | | length; makes one sphere |
+/// | `count`, `arrangement` | | make many: `"fcc"`, `"cubic"` or `"random"` |
+/// | `lower`, `upper` | periodic box or container | the box that many fill |
+/// | `number_density` | | instead of a box, with `periodic = "cube"` |
+/// | `temperature`, `spin_temperature` | 0 | of many: kT, energy |
+/// | `radius` | | length |
+/// | `mass` or `density` | mass 1 | |
+/// | `inertia_factor` | 0.4 | `I / (m r²)`, above 0 and up to 2/3 |
+/// | `velocity`, `spin` | `[0, 0, 0]` | length and rad per time; of many, added to all |
+///
+/// `radius`, `mass` and `density` can be two numbers, `[least, greatest]`, to
+/// spread evenly over.
+///
+/// The public fields are what the program's options set. A field that was
+/// changed is blamed on its option (`--dt` for [`dt`](SceneFile::dt)), not on a
+/// line of the file.
+///
+/// ```
+/// use carom::scene::SceneFile;
+///
+/// let mut file = SceneFile::builtin("bouncing-ball").ok_or("no such scene")?;
+/// file.dt = Some(1e-4);
+/// let scene = file.build::<f32>()?;
+/// assert_eq!(scene.bodies.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SceneFile {
+    /// What the summary calls the scene: the file's name without its ending.
+    pub name: String,
+    /// In which numbers the file wants to be computed; `f64` by default.
+    pub precision: Precision,
+    /// What moves it through time; the stepped engine by default.
+    pub engine: EngineKind,
+    /// How long a run takes, time.
+    pub duration: Option<f64>,
+    /// Length of a step of the stepped engine, time.
+    pub dt: Option<f64>,
+    /// The seed of all random numbers; 0 by default.
+    pub seed: u64,
+    path: String,
+    text: Arc<str>,
+    raw: RawScene,
+}
+
+impl SceneFile {
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is not UTF-8 or TOML, or has an unknown key
+    /// or a value of the wrong type.
+    pub fn load(path: &Path) -> Result<Self, SceneError> {
+        let shown = path.display().to_string();
+        let origin = Origin::code(&shown);
+        let bytes =
+            std::fs::read(path).map_err(|error| origin.error("", Problem::Unreadable(error)))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            origin.error("", Problem::NotText(error.utf8_error().valid_up_to()))
+        })?;
+        let mut file = Self::parse(&shown, &text)?;
+        if let Some(stem) = path.file_stem() {
+            file.name = stem.to_string_lossy().into_owned();
+        }
+        Ok(file)
+    }
+
+    /// Reads the text of a scene file; `name` stands for the file in errors.
+    ///
+    /// # Errors
+    /// If the text is not TOML, or has an unknown key or a value of the wrong
+    /// type.
+    pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
+        let text: Arc<str> = text.into();
+        let raw: RawScene = toml::from_str(&text)
+            .map_err(|error| Origin::file(name, Arc::clone(&text)).toml_error(&error))?;
+        Ok(Self {
+            name: name.to_owned(),
+            precision: raw.precision.unwrap_or_default(),
+            engine: raw.engine.unwrap_or_default(),
+            duration: number(raw.duration),
+            dt: number(raw.stepped.dt),
+            seed: raw.seed.map_or(0, |Whole(seed)| seed),
+            path: name.to_owned(),
+            text,
+            raw,
+        })
+    }
+
+    /// The built-in scene of that name, if there is one.
+    #[must_use]
+    pub fn builtin(name: &str) -> Option<Self> {
+        let scene = builtin::builtin_scenes().iter().find(|scene| scene.name == name)?;
+        Self::parse(scene.name, scene.text).ok()
+    }
+
+    /// How long a run takes, for those who need to know.
+    ///
+    /// # Errors
+    /// If neither the file nor an option says it.
+    pub fn run_duration(&self) -> Result<f64, SceneError> {
+        self.duration.ok_or_else(|| {
+            let wanted = "set `duration` at the top of the file, or --duration";
+            self.origin().error("duration", Problem::missing(wanted))
+        })
+    }
+
+    /// Builds and checks the scene in a precision.
+    ///
+    /// # Errors
+    /// If a value, or what the values make together, is not possible.
+    pub fn build<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+        let origin = self.origin();
+        let mut builder = SceneBuilder::<T>::new()
+            .name(self.name.clone())
+            .engine(self.engine)
+            .seed(self.seed)
+            .surface(self.raw.surface.kind.unwrap_or_default())
+            .encounters(self.raw.encounters.unwrap_or_default())
+            .integrator(self.raw.stepped.integrator.unwrap_or_default())
+            .impact(self.raw.stepped.impact.unwrap_or_default())
+            .orientation(self.raw.stepped.orientation.unwrap_or_default());
+        builder.duration = self.duration;
+        builder.stepped.dt = self.dt;
+        if let Some(Vector(gravity)) = self.raw.gravity {
+            builder = builder.gravity(gravity.map(T::from_f64));
+        }
+        match &self.raw.periodic {
+            None => {}
+            Some(RawPeriodic::Cube) => builder = builder.periodic_cube(),
+            Some(RawPeriodic::Box(bounds)) => {
+                let lower = required(&origin, "periodic", "lower", bounds.lower)?;
+                let upper = required(&origin, "periodic", "upper", bounds.upper)?;
+                builder.set_periodic(PeriodicBox::new(lower, upper));
+            }
+        }
+        for (index, raw) in self.raw.surroundings.iter().enumerate() {
+            builder.add_surroundings(shape(&origin, index, raw)?);
+        }
+        for (index, raw) in self.raw.spheres.iter().enumerate() {
+            builder = add_spheres(builder, &origin, index, raw)?;
+        }
+        builder.origin = origin;
+        builder.build()
+    }
+
+    /// Which values came from where.
+    fn origin(&self) -> Origin {
+        let mut origin = Origin::file(&self.path, Arc::clone(&self.text));
+        let bits = |value: Option<f64>| value.map(f64::to_bits);
+        if bits(self.duration) != bits(number(self.raw.duration)) {
+            origin.overridden("duration", "--duration");
+        }
+        if bits(self.dt) != bits(number(self.raw.stepped.dt)) {
+            origin.overridden("stepped.dt", "--dt");
+        }
+        origin
+    }
+}
+
+fn number(value: Option<Number>) -> Option<f64> {
+    value.map(|Number(value)| value)
+}
+
+/// The value of a key that has to be there.
+fn required(
+    origin: &Origin,
+    entry: &str,
+    key: &str,
+    value: Option<Vector>,
+) -> Result<[f64; 3], SceneError> {
+    value.map(|Vector(vector)| vector).ok_or_else(|| {
+        let problem = Problem::missing("three numbers belong here, as in [0.0, 0.0, 1.0]");
+        origin.error(format!("{entry}.{key}"), problem)
+    })
+}
+
+/// One entry of the surroundings, with the keys of its shape and no others.
+fn shape(origin: &Origin, index: usize, raw: &RawSurroundings) -> Result<Shape<f64>, SceneError> {
+    let entry = format!("surroundings[{index}]");
+    let vector = |key: &str, value| required(origin, &entry, key, value);
+    let Some(shape) = raw.shape else {
+        let problem = Problem::missing("it is \"plane\", \"box\" or \"sphere\"");
+        return Err(origin.error(format!("{entry}.shape"), problem));
+    };
+    let (name, keys): (_, &[&str]) = match shape {
+        RawShape::Plane => ("plane", &["point", "normal"]),
+        RawShape::Box => ("box", &["lower", "upper", "inside"]),
+        RawShape::Sphere => ("sphere", &["center", "radius", "inside"]),
+    };
+    let given = [
+        ("point", raw.point.is_some()),
+        ("normal", raw.normal.is_some()),
+        ("lower", raw.lower.is_some()),
+        ("upper", raw.upper.is_some()),
+        ("center", raw.center.is_some()),
+        ("radius", raw.radius.is_some()),
+        ("inside", raw.inside.is_some()),
+    ];
+    if let Some((key, _)) = given.iter().find(|(key, given)| *given && !keys.contains(key)) {
+        let reason = format!("a {name} has {}", keys.join(", "));
+        let problem = Problem::conflict(format!("shape = \"{name}\""), reason);
+        return Err(origin.error(format!("{entry}.{key}"), problem));
+    }
+    let inside = raw.inside.unwrap_or(false);
+    Ok(match shape {
+        RawShape::Plane => {
+            Plane::new(vector("point", raw.point)?, vector("normal", raw.normal)?).into()
+        }
+        RawShape::Box => {
+            let lower = vector("lower", raw.lower)?.into();
+            let upper = vector("upper", raw.upper)?.into();
+            Cuboid { lower, upper, inside }.into()
+        }
+        RawShape::Sphere => {
+            let center = vector("center", raw.center)?.into();
+            let Some(Number(radius)) = raw.radius else {
+                let problem = Problem::missing("a sphere has a radius greater than 0");
+                return Err(origin.error(format!("{entry}.radius"), problem));
+            };
+            FixedSphere { center, radius, inside }.into()
+        }
+    })
+}
+
+/// Adds one entry of spheres, with the keys of one or of many.
+fn add_spheres<T: Real>(
+    builder: SceneBuilder<T>,
+    origin: &Origin,
+    index: usize,
+    raw: &RawSpheres,
+) -> Result<SceneBuilder<T>, SceneError> {
+    let entry = format!("spheres[{index}]");
+    let make = Make {
+        radius: raw.radius,
+        mass: raw.mass,
+        density: raw.density,
+        inertia_factor: number(raw.inertia_factor).unwrap_or(0.4),
+        velocity: raw.velocity.map_or([0.0; 3], |Vector(velocity)| velocity),
+        spin: raw.spin.map_or([0.0; 3], |Vector(spin)| spin),
+    };
+    if let Some(Vector(position)) = raw.position {
+        let given = [
+            ("count", raw.count.is_some()),
+            ("arrangement", raw.arrangement.is_some()),
+            ("lower", raw.lower.is_some()),
+            ("upper", raw.upper.is_some()),
+            ("number_density", raw.number_density.is_some()),
+            ("temperature", raw.temperature.is_some()),
+            ("spin_temperature", raw.spin_temperature.is_some()),
+        ];
+        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+            let reason = "an entry is one sphere with a position, or a count of them";
+            let problem = Problem::conflict("position", reason);
+            return Err(origin.error(format!("{entry}.{key}"), problem));
+        }
+        return Ok(builder.sphere(Sphere { position, make }));
+    }
+    let Some(Whole(count)) = raw.count else {
+        let wanted = "an entry is one sphere with a position, or a count of them";
+        return Err(origin.error(format!("{entry}.position"), Problem::missing(wanted)));
+    };
+    let Some(arrangement) = raw.arrangement else {
+        let wanted = "it is \"fcc\", \"cubic\" or \"random\"";
+        return Err(origin.error(format!("{entry}.arrangement"), Problem::missing(wanted)));
+    };
+    let bounds = match (raw.lower, raw.upper) {
+        (None, None) => None,
+        (lower, upper) => Some([
+            required(origin, &entry, "lower", lower)?,
+            required(origin, &entry, "upper", upper)?,
+        ]),
+    };
+    Ok(builder.spheres(Spheres {
+        count,
+        arrangement,
+        bounds,
+        number_density: number(raw.number_density),
+        temperature: number(raw.temperature).unwrap_or(0.0),
+        spin_temperature: number(raw.spin_temperature).unwrap_or(0.0),
+        seed: None,
+        make,
+    }))
+}

@@ -1,0 +1,226 @@
+//! The scene file as it is written, before anything is checked but its keys
+//! and types.
+
+use core::fmt;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
+
+use super::spheres::{Arrangement, Spread};
+use super::{Encounters, Precision};
+use crate::contact::Surface;
+use crate::engine::{EngineKind, Impact, OrientationUpdate};
+use crate::motion::Integrator;
+
+/// The whole file.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawScene {
+    pub(super) precision: Option<Precision>,
+    pub(super) engine: Option<EngineKind>,
+    pub(super) duration: Option<Number>,
+    pub(super) gravity: Option<Vector>,
+    pub(super) seed: Option<Whole>,
+    pub(super) encounters: Option<Encounters>,
+    pub(super) periodic: Option<RawPeriodic>,
+    #[serde(default)]
+    pub(super) stepped: RawStepped,
+    #[serde(default)]
+    pub(super) surface: RawSurface,
+    #[serde(default)]
+    pub(super) surroundings: Vec<RawSurroundings>,
+    #[serde(default)]
+    pub(super) spheres: Vec<RawSpheres>,
+}
+
+/// `[stepped]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawStepped {
+    pub(super) dt: Option<Number>,
+    pub(super) integrator: Option<Integrator>,
+    pub(super) impact: Option<Impact>,
+    pub(super) orientation: Option<OrientationUpdate>,
+}
+
+/// `[surface]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSurface {
+    pub(super) kind: Option<Surface>,
+}
+
+/// `periodic = "cube"` or `[periodic]`.
+#[derive(Clone, Debug)]
+pub(super) enum RawPeriodic {
+    Cube,
+    Box(RawBounds),
+}
+
+/// `lower` and `upper`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawBounds {
+    pub(super) lower: Option<Vector>,
+    pub(super) upper: Option<Vector>,
+}
+
+/// What `shape` says.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum RawShape {
+    Plane,
+    Box,
+    Sphere,
+}
+
+/// `[[surroundings]]`: the keys of all shapes, sorted out by the shape later.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSurroundings {
+    pub(super) shape: Option<RawShape>,
+    pub(super) point: Option<Vector>,
+    pub(super) normal: Option<Vector>,
+    pub(super) lower: Option<Vector>,
+    pub(super) upper: Option<Vector>,
+    pub(super) center: Option<Vector>,
+    pub(super) radius: Option<Number>,
+    pub(super) inside: Option<bool>,
+}
+
+/// `[[spheres]]`: the keys of one and of many.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSpheres {
+    pub(super) position: Option<Vector>,
+    pub(super) count: Option<Whole>,
+    pub(super) arrangement: Option<Arrangement>,
+    pub(super) lower: Option<Vector>,
+    pub(super) upper: Option<Vector>,
+    pub(super) number_density: Option<Number>,
+    pub(super) radius: Option<Spread>,
+    pub(super) mass: Option<Spread>,
+    pub(super) density: Option<Spread>,
+    pub(super) inertia_factor: Option<Number>,
+    pub(super) velocity: Option<Vector>,
+    pub(super) spin: Option<Vector>,
+    pub(super) temperature: Option<Number>,
+    pub(super) spin_temperature: Option<Number>,
+}
+
+/// A number, whole or not.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Number(pub(super) f64);
+
+/// A whole number from 0 up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Whole(pub(super) u64);
+
+/// Three numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Vector(pub(super) [f64; 3]);
+
+/// Takes what a value may be, and names it in errors.
+macro_rules! deserialize {
+    ($type:ident, $method:ident, $expecting:literal, { $($visit:item)* }) => {
+        impl<'de> Deserialize<'de> for $type {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Taker;
+                impl<'de> Visitor<'de> for Taker {
+                    type Value = $type;
+                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                        f.write_str($expecting)
+                    }
+                    $($visit)*
+                }
+                deserializer.$method(Taker)
+            }
+        }
+    };
+}
+
+deserialize!(Number, deserialize_any, "a number", {
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Number, E> {
+        Ok(Number(value))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Number, E> {
+        Ok(Number(value as f64))
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Number, E> {
+        Ok(Number(value as f64))
+    }
+
+    fn visit_i128<E: Error>(self, value: i128) -> Result<Number, E> {
+        Ok(Number(value as f64))
+    }
+
+    fn visit_u128<E: Error>(self, value: u128) -> Result<Number, E> {
+        Ok(Number(value as f64))
+    }
+});
+
+deserialize!(Whole, deserialize_any, "a whole number from 0 up", {
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Whole, E> {
+        let invalid = |_| E::invalid_value(serde::de::Unexpected::Signed(value), &self);
+        u64::try_from(value).map(Whole).map_err(invalid)
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Whole, E> {
+        Ok(Whole(value))
+    }
+});
+
+deserialize!(Vector, deserialize_any, "three numbers, as in [0.0, 0.0, 1.0]", {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Vector, A::Error> {
+        let mut vector = [0.0; 3];
+        for (index, place) in vector.iter_mut().enumerate() {
+            let element: Option<Number> = elements.next_element()?;
+            *place = element.ok_or_else(|| A::Error::invalid_length(index, &self))?.0;
+        }
+        match elements.next_element::<serde::de::IgnoredAny>()? {
+            None => Ok(Vector(vector)),
+            Some(_) => Err(A::Error::custom("too long an array, expected three numbers")),
+        }
+    }
+});
+
+deserialize!(Spread, deserialize_any, "a number, or two, [least, greatest], to spread over", {
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Spread, E> {
+        Ok(Spread::Same(value))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Spread, E> {
+        Ok(Spread::Same(value as f64))
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<Spread, E> {
+        Ok(Spread::Same(value as f64))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Spread, A::Error> {
+        let mut bound = |index| -> Result<f64, A::Error> {
+            let element: Option<Number> = elements.next_element()?;
+            Ok(element.ok_or_else(|| A::Error::invalid_length(index, &self))?.0)
+        };
+        let (least, greatest) = (bound(0)?, bound(1)?);
+        match elements.next_element::<serde::de::IgnoredAny>()? {
+            None => Ok(Spread::Uniform { least, greatest }),
+            Some(_) => Err(A::Error::custom("too long an array, expected two numbers")),
+        }
+    }
+});
+
+deserialize!(RawPeriodic, deserialize_any, "a table of lower and upper, or \"cube\"", {
+    fn visit_str<E: Error>(self, text: &str) -> Result<RawPeriodic, E> {
+        if text == "cube" {
+            return Ok(RawPeriodic::Cube);
+        }
+        Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawPeriodic, A::Error> {
+        RawBounds::deserialize(MapAccessDeserializer::new(map)).map(RawPeriodic::Box)
+    }
+});

@@ -1,0 +1,56 @@
+//! Workers: the threads that share a piece of work.
+//!
+//! Work is cut into items whose number and bounds never depend on the threads,
+//! and no item's result depends on another's, so any number of threads gives
+//! the same bits.
+
+use rayon::prelude::*;
+
+/// One thread, or a pool of several.
+#[derive(Debug, Default)]
+pub struct Workers {
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Workers {
+    /// `threads` workers; 0 takes one for each core. One worker is the calling
+    /// thread itself.
+    ///
+    /// # Errors
+    /// If the system has no more threads to give.
+    pub fn new(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let threads = match threads {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            threads => threads,
+        };
+        let pool = match threads {
+            1 => None,
+            _ => Some(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?),
+        };
+        Ok(Self { pool })
+    }
+
+    /// How many threads share the work.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// Runs a long piece of work where handing out items costs least.
+    pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+
+    /// Does the work of each item, side by side.
+    pub fn each<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
+        match &self.pool {
+            Some(pool) if items.len() > 1 => {
+                pool.install(|| items.par_iter_mut().for_each(work));
+            }
+            _ => items.iter_mut().for_each(work),
+        }
+    }
+}
