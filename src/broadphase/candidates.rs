@@ -85,7 +85,7 @@ impl Candidates {
     /// How many shells are to be tested when two bodies can have come `nearer`
     /// by this much since a search with this skin, lengths.
     pub fn shells_within<T: Real>(nearer: T, skin: T) -> usize {
-        1 + shell_ends(skin).iter().filter(|&&end| !(nearer < end)).count()
+        SHELLS - shell_ends(skin).iter().filter(|&&end| nearer < end).count()
     }
 
     /// The bytes that the lists hold in memory.

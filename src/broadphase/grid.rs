@@ -194,11 +194,8 @@ mod tests {
     #[test]
     fn later_runs_are_the_neighbours_with_greater_ranks() {
         for cells in [[1, 1, 1], [2, 1, 3], [3, 3, 3], [5, 4, 6]] {
-            let grid = Grid {
-                origin: Vec3::ZERO,
-                cells_per_length: Vec3::new(1.0, 1.0, 1.0),
-                cells,
-            };
+            let grid =
+                Grid { origin: Vec3::ZERO, cells_per_length: Vec3::new(1.0, 1.0, 1.0), cells };
             for rank in 0..grid.len() as u32 {
                 let mut later = Vec::new();
                 grid.for_each_later_run(rank, |run| later.extend(run));
