@@ -80,7 +80,7 @@ pub trait Real:
     /// Whether the number is neither infinite nor NaN.
     #[inline(always)]
     fn is_finite(self) -> bool {
-        self - self == Self::ZERO
+        self * Self::ZERO == Self::ZERO
     }
 
     /// The bytes of the number, in the order that the state hash reads them.

@@ -88,7 +88,7 @@ fn without_quarter_turns<L: Lane>(head: L, tail: L, quarters: L) -> (L, L) {
     let (head, tail) = two_sum(head - product, tail - error);
     let (product, error) = two_product(quarters, second);
     let (head, lost) = two_sum(head, -product);
-    (head, tail + ((lost - error) - quarters * third))
+    two_sum(head, tail + ((lost - error) - quarters * third))
 }
 
 /// An angle of more quarter turns than can be told, less whole turns: few
@@ -100,33 +100,32 @@ fn without_whole_turns<L: Lane>(head: L, tail: L) -> (L, L) {
     let four = L::ratio(4, 1);
     let turns = (head * L::splat(L::Scalar::ratio(1, 4) / quarter_turn)).nearest_whole();
     let (near, rest) = without_quarter_turns(head, tail, turns * four);
-    let (near, rest) = two_sum(near, rest);
     let most = L::Scalar::QUARTER_TURNS_TOLD * L::Scalar::WHOLE_FROM * L::Scalar::ratio(1, 8);
     let is_lost = head.abs().gt(L::splat(most));
-    // Infinity less itself is NaN.
-    (L::select(is_lost, head - head, near), L::select(is_lost, L::ZERO, rest))
+    // Infinity times 0 is NaN.
+    (L::select(is_lost, head * L::ZERO, near), L::select(is_lost, L::ZERO, rest))
 }
 
-/// `sin(h)/h` from `h²`, for `|h|` up to π/4. Error below ε.
+/// `1 − sin(h)/h` from `h²`, for `|h|` up to π/4. Relative error a few ε.
 ///
 /// ```
-/// use carom::trigonometry::sine_ratio;
-/// assert_eq!(sine_ratio(0.0), 1.0);
+/// use carom::trigonometry::sine_ratio_deficit;
+/// assert_eq!(sine_ratio_deficit(6e-9), 1e-9);
 /// ```
 #[inline(always)]
-pub fn sine_ratio<L: Lane>(square: L) -> L {
-    alternating_series(square, 1)
+pub fn sine_ratio_deficit<L: Lane>(square: L) -> L {
+    square * alternating_series(square, 3)
 }
 
-/// `cos(h)` from `h²`, for `|h|` up to π/4. Error below ε.
+/// `1 − cos(h)` from `h²`, for `|h|` up to π/4. Relative error a few ε.
 ///
 /// ```
-/// use carom::trigonometry::cosine;
-/// assert_eq!(cosine(0.0), 1.0);
+/// use carom::trigonometry::cosine_deficit;
+/// assert_eq!(cosine_deficit(2e-9), 1e-9);
 /// ```
 #[inline(always)]
-pub fn cosine<L: Lane>(square: L) -> L {
-    alternating_series(square, 0)
+pub fn cosine_deficit<L: Lane>(square: L) -> L {
+    square * alternating_series(square, 2)
 }
 
 /// `1/n! − z/(n+2)! + z²/(n+4)! − …`: cosine (`n` = 0) and sine (1) of `√z`,

@@ -203,7 +203,7 @@ where
     let bits = |values: &[L::Scalar]| values.iter().map(|v| v.to_bits64()).collect::<Vec<_>>();
     let width = L::WIDTH;
     let zero = L::Scalar::ZERO;
-    let mut place = vec![zero; 100];
+    let mut place = [zero; 100];
 
     L::load(&column[3..]).store(&mut place[5..]);
     assert_eq!(bits(&place[5..5 + width]), bits(&column[3..3 + width]));
@@ -225,7 +225,7 @@ where
     for (k, &index) in indices.iter().enumerate() {
         assert_eq!(gathered.to_array().as_ref()[k].to_bits64(), column[index as usize].to_bits64());
     }
-    let mut place = vec![zero; 100];
+    let mut place = [zero; 100];
     gathered.scatter(&mut place, &indices);
     for (index, value) in place.iter().enumerate() {
         let is_target = indices.contains(&(index as u32));

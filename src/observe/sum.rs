@@ -1,5 +1,7 @@
 //! A sum of many numbers without the rounding errors of many numbers.
 
+use crate::compensated::two_sum;
+
 /// A running sum in `f64` that carries what each addition rounds off.
 ///
 /// The error of the value is about one rounding of it, plus terms of second
@@ -22,13 +24,9 @@ impl CompensatedSum {
     /// Adds a term.
     #[inline]
     pub fn add(&mut self, term: f64) {
-        let sum = self.sum + term;
-        self.rounded_off += if self.sum.abs() >= term.abs() {
-            (self.sum - sum) + term
-        } else {
-            (term - sum) + self.sum
-        };
+        let (sum, rounded_off) = two_sum(self.sum, term);
         self.sum = sum;
+        self.rounded_off += rounded_off;
     }
 
     /// The sum of the terms so far.

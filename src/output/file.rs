@@ -247,7 +247,7 @@ fn beside(target: &Path) -> io::Result<NamedTempFile> {
 impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.output {
-            Output::Beside { file, .. } => file.write(bytes),
+            Output::Beside { file, .. } => file.as_file_mut().write(bytes),
             Output::Straight(file) => file.write(bytes),
             Output::Standard(stdout) => stdout.write(bytes),
         }
@@ -255,7 +255,7 @@ impl Write for OutputFile {
 
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.output {
-            Output::Beside { file, .. } => file.flush(),
+            Output::Beside { file, .. } => file.as_file_mut().flush(),
             Output::Straight(file) => file.flush(),
             Output::Standard(stdout) => stdout.flush(),
         }

@@ -65,7 +65,7 @@ fn scenes_without_spheres_or_with_one_in_another() {
     refused("duration = 1.0\n[stepped]\ndt = 0.1\n", "", &["scene.toml", "[[spheres]]"]);
     let ball = |x: f64| format!("[[spheres]]\nposition = [{x:?}, 0.0, 0.0]\nradius = 0.5\n");
     let pair = format!("duration = 1.0\n[stepped]\ndt = 0.1\n{}{}", ball(0.0), ball(0.75));
-    refused(&pair, "", &["scene.toml:", "body 1", "body 0", "overlap", "2.5e-1"]);
+    refused(&pair, "", &["scene.toml:", "body 1", "body 0", "overlap", "0.25"]);
     let stone = "[[surroundings]]\nshape = \"sphere\"\ncenter = [0.0, 0.0, 0.0]\nradius = 1.0\n";
     let inside = format!("duration = 1.0\n{stone}{}[stepped]\ndt = 0.1\n", ball(0.0));
     refused(&inside, "", &["scene.toml:", "body 0"]);

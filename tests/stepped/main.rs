@@ -1,0 +1,22 @@
+//! The stepped engine: equal bits on every path, the laws that it must keep,
+//! exact cases, and its memory.
+
+mod exact;
+mod laws;
+mod reference;
+mod same_bits;
+
+use carom::engine::{Execution, Lanes, Stepped};
+use carom::real::Real;
+use carom::scene::Scene;
+
+/// The scalar path on one thread.
+pub const SCALAR: Execution = Execution { lanes: Lanes::Scalar, threads: 1 };
+
+/// The fastest lanes on one thread.
+pub const FAST: Execution = Execution { lanes: Lanes::Auto, threads: 1 };
+
+/// A scene at its start.
+pub fn world<T: Real>(scene: Scene<T>, execution: Execution) -> Stepped<T> {
+    Stepped::with_execution(scene, execution).unwrap()
+}
