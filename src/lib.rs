@@ -9,11 +9,10 @@
 //! # A first program
 //!
 //! ```
-//! use carom::{Cuboid, Energy, Scene, Spheres, Stepped, Surface};
+//! use carom::{Cuboid, Scene, Spheres, Stepped, Surface};
 //!
-//! let gravity = [0.0, 0.0, -9.81];
 //! let scene = Scene::<f64>::builder()
-//!     .gravity(gravity)
+//!     .gravity([0.0, 0.0, -9.81])
 //!     .surface(Surface::Rough)
 //!     .surroundings(Cuboid::container([0.0; 3], [10.0; 3]))
 //!     .spheres(Spheres::random(10_000).radius(0.1).temperature(1.0).seed(7))
@@ -21,7 +20,7 @@
 //!     .build()?;
 //! let mut world = Stepped::new(scene)?;
 //! world.advance(0.1);
-//! println!("{}", Energy::of(&world.bodies(), gravity.into()));
+//! println!("{}", world.energy());
 //! assert!(world.collisions().pairs > 0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -34,7 +33,7 @@
 //! | module | what it has |
 //! |---|---|
 //! | [`scene`] | what is simulated, from a file or a builder, checked |
-//! | [`bodies`], [`column`] | the spheres, a padded column for each component |
+//! | [`bodies`], [`mod@column`] | the spheres, a padded column for each component |
 //! | [`surroundings`] | what is fixed in space, and the periodic box |
 //! | [`engine`] | the plan of a scene, and the engine that moves it |
 //! | [`motion`] | free flight: integrators and rotation |
@@ -49,7 +48,7 @@
 //! # Formulas without an engine
 //!
 //! The formulas are public, over single numbers, lanes and slices: see
-//! [`motion::flight`], [`motion::turning`] and [`contact::collide`].
+//! [`motion::flight`](mod@motion::flight), [`motion::turning`] and [`contact::collide`].
 //!
 //! ```
 //! use carom::contact::{Party, collide};
