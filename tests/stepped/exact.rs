@@ -19,11 +19,13 @@ fn floor<T: Real>() -> Plane<T> {
     Plane::new([T::ZERO; 3], [T::ZERO, T::ZERO, T::ONE])
 }
 
-/// Cradles, touching or not, pairwise in order: masses, velocities, what
-/// becomes of them, in how many collisions.
+/// Masses, velocities, what becomes of them, in how many collisions.
+type Cradle = (&'static [f64], &'static [f64], &'static [f64], u64);
+
+/// Cradles, touching or not, pairwise in order.
 #[test]
 fn cradles() {
-    let cases: [(&[f64], &[f64], &[f64], u64); 4] = [
+    let cases: [Cradle; 4] = [
         (&[1.0; 3], &[1.0, 0.0, 0.0], &[0.0, 0.0, 1.0], 2),
         (&[1.0; 5], &[1.0, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 1.0], 6),
         (&[1.0, 2.0, 3.0], &[1.0, 0.0, 0.0], &[-1.0 / 3.0, -2.0 / 15.0, 8.0 / 15.0], 2),
