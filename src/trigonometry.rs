@@ -110,7 +110,7 @@ fn without_whole_turns<L: Lane>(head: L, tail: L) -> (L, L) {
 ///
 /// ```
 /// use carom::trigonometry::sine_ratio_deficit;
-/// assert_eq!(sine_ratio_deficit(6e-9), 1e-9);
+/// assert!((sine_ratio_deficit(6e-20) - 1e-20).abs() < 1e-35);
 /// ```
 #[inline(always)]
 pub fn sine_ratio_deficit<L: Lane>(square: L) -> L {
@@ -121,7 +121,7 @@ pub fn sine_ratio_deficit<L: Lane>(square: L) -> L {
 ///
 /// ```
 /// use carom::trigonometry::cosine_deficit;
-/// assert_eq!(cosine_deficit(2e-9), 1e-9);
+/// assert_eq!(cosine_deficit(2e-20), 1e-20); // 1 − 1.0 would be 0
 /// ```
 #[inline(always)]
 pub fn cosine_deficit<L: Lane>(square: L) -> L {

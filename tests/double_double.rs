@@ -7,11 +7,11 @@ use carom::column::Column;
 use carom::lane::Lane;
 use carom::mat3::Mat3;
 use carom::motion::Integrator;
-use carom::motion::flight::Unbounded;
 use carom::motion::integrator::{FlightStep, VelocityVerlet};
 use carom::motion::rotation::{reference_rotation, turned};
 use carom::motion::turning::turn;
 use carom::real::Real;
+use carom::surroundings::OpenSpace;
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
 use common::double_double::DoubleDouble;
@@ -123,7 +123,7 @@ fn columns_turn_and_fly() {
             [&mut u, &mut v, &mut w],
             Some(gravity),
             Number::ratio(1, 100),
-            &Unbounded,
+            OpenSpace,
         );
     }
     let (end, velocity) = VelocityVerlet::step(

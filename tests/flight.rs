@@ -3,11 +3,11 @@
 mod common;
 
 use carom::motion::Integrator;
-use carom::motion::flight::{Unbounded, flight, flight_and_fastest};
+use carom::motion::flight::{flight, flight_and_fastest};
 use carom::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, SemiImplicitEuler, VelocityVerlet,
 };
-use carom::surroundings::PeriodicBox;
+use carom::surroundings::{OpenSpace, PeriodicBox};
 use carom::vec3::Vec3;
 use common::numbers::Random;
 
@@ -62,7 +62,7 @@ fn the_shortest_column_counts() {
         [&mut u, &mut v, &mut w],
         Vec3::ZERO,
         1.0,
-        &Unbounded,
+        OpenSpace,
     );
     assert_eq!(x, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     assert_eq!(y, [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0]);
@@ -81,7 +81,7 @@ fn the_fastest_is_found_anywhere() {
             [u, v, &mut speed],
             Vec3::ZERO,
             1.0,
-            &Unbounded,
+            OpenSpace,
         );
         assert_eq!(found, 9.0);
     }
@@ -90,7 +90,7 @@ fn the_fastest_is_found_anywhere() {
         [&mut [], &mut [], &mut []],
         None,
         1.0,
-        &Unbounded,
+        OpenSpace,
     );
     assert_eq!(none, 0.0);
 }
@@ -105,7 +105,7 @@ fn a_periodic_box_takes_bodies_back() {
         [&mut u, &mut v, &mut w],
         None,
         1.0,
-        &space,
+        space,
     );
     assert_eq!((x, y, z), ([0.5; 5], [9.5; 5], [6.0; 5]));
 }

@@ -40,7 +40,7 @@ fn turn_arrays<L: Lane>(orientation: Arrays<L, 9>, spin: [&[L::Array]; 3], time:
     let spin = spin.map(|column| &column[..len]);
     let orientation = orientation.map(|column| &mut column[..len]);
     for i in 0..len {
-        let w = Vec3::from(spin.each_ref().map(|column| L::from_array(column[i])));
+        let w = Vec3::<L>::from_arrays(spin.each_ref().map(|column| column[i]));
         let m = Mat3::from_rows(orientation.each_ref().map(|column| L::from_array(column[i])));
         let rows = turned(m, w, time).rows();
         for k in 0..9 {
