@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .dt(5e-4)
         .build()?;
     let mut world = Stepped::new(scene)?;
-    world.advance(20.0);
+    world.advance(20.0)?;
     std::io::stdout().write_all(drawing(&world.bodies()).as_bytes())?;
     Ok(())
 }

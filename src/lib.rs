@@ -19,7 +19,7 @@
 //!     .dt(1e-3)
 //!     .build()?;
 //! let mut world = Stepped::new(scene)?;
-//! world.advance(0.1);
+//! world.advance(0.1)?;
 //! println!("{}", world.energy());
 //! assert!(world.collisions().pairs > 0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -24,7 +24,7 @@ use crate::motion::Integrator;
 use crate::motion::turning::turn;
 use crate::observe::Energy;
 use crate::real::Real;
-use crate::scene::Scene;
+use crate::scene::{MOST_STEPS, Scene};
 use crate::surroundings::{Feature, OpenSpace, PeriodicBox};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
@@ -72,7 +72,7 @@ use in_lanes;
 ///     .dt(0.125)
 ///     .build()?;
 /// let mut world = Stepped::new(scene)?;
-/// world.advance(2.0);
+/// world.advance(2.0)?;
 /// assert_eq!(world.collisions().pairs, 1);
 /// assert_eq!(world.bodies().velocity_of(1).x, 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -264,9 +264,16 @@ impl<T: Real> Stepped<T> {
     }
 
     /// Takes the whole number of steps that is nearest to `duration`, time.
-    pub fn advance(&mut self, duration: f64) {
-        let steps = (duration / self.exact_dt).round().max(0.0) as u64;
-        self.advance_steps(steps);
+    ///
+    /// # Errors
+    /// If the duration is negative, not finite, or more than 2⁵³ steps long.
+    pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
+        let steps = (duration / self.exact_dt).round();
+        if !(0.0..=MOST_STEPS).contains(&steps) {
+            return Err(EngineError::Duration { duration, dt: self.exact_dt });
+        }
+        self.advance_steps(steps as u64);
+        Ok(())
     }
 
     /// Takes this many steps.
