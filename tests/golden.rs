@@ -41,16 +41,32 @@ const GOLDEN: &[Entry] = &[
     ("turning f64", turning::<f64>, 0xd79d_ad72_405d_f75a),
     ("flight f32", flights::<f32>, 0x58b9_50ff_4b45_5fcb),
     ("flight f64", flights::<f64>, 0xefa4_71d9_b3c9_6153),
-    ("smooth impulse f32", impulses::<f32, false>, 0),
-    ("smooth impulse f64", impulses::<f64, false>, 0),
-    ("rough impulse f32", impulses::<f32, true>, 0),
-    ("rough impulse f64", impulses::<f64, true>, 0),
-    ("rough gas, end of step f32", || engine::<f32>("rough-gas", Impact::EndOfStep), 0),
-    ("rough gas, end of step f64", || engine::<f64>("rough-gas", Impact::EndOfStep), 0),
-    ("mixture, sub-step f32", || engine::<f32>("mixture", Impact::SubStep), 0),
-    ("mixture, sub-step f64", || engine::<f64>("mixture", Impact::SubStep), 0),
-    ("fluid, sub-step f32", || engine::<f32>("hard-sphere-fluid", Impact::SubStep), 0),
-    ("fluid, sub-step f64", || engine::<f64>("hard-sphere-fluid", Impact::SubStep), 0),
+    ("smooth impulse f32", impulses::<f32, false>, 0x96b6_c183_0274_a53e),
+    ("smooth impulse f64", impulses::<f64, false>, 0x2890_999d_1a32_8784),
+    ("rough impulse f32", impulses::<f32, true>, 0x661a_40cf_da21_d0dd),
+    ("rough impulse f64", impulses::<f64, true>, 0x2bed_9b8d_179f_2d94),
+    (
+        "rough gas, end of step f32",
+        || engine::<f32>("rough-gas", Impact::EndOfStep),
+        0x385d_544d_2704_8287,
+    ),
+    (
+        "rough gas, end of step f64",
+        || engine::<f64>("rough-gas", Impact::EndOfStep),
+        0x48ec_c486_2f7e_02fb,
+    ),
+    ("mixture, sub-step f32", || engine::<f32>("mixture", Impact::SubStep), 0x6e2a_5255_2582_d4fb),
+    ("mixture, sub-step f64", || engine::<f64>("mixture", Impact::SubStep), 0xa86f_9986_2da8_174a),
+    (
+        "fluid, sub-step f32",
+        || engine::<f32>("hard-sphere-fluid", Impact::SubStep),
+        0x0422_6d71_d515_a0ec,
+    ),
+    (
+        "fluid, sub-step f64",
+        || engine::<f64>("hard-sphere-fluid", Impact::SubStep),
+        0x9640_2d96_6548_2931,
+    ),
 ];
 
 #[test]
