@@ -37,6 +37,9 @@ const MOST_GRIDS: usize = 24;
 const FIRST_DENSITY: f64 = 0.2;
 const FIRST_SKIN: f64 = 0.5;
 
+/// The widest skin for what may have met within a step, in mean diameters.
+const MOST_SWEPT: f64 = 4.0;
+
 /// Bodies whose cells are found as one piece of work.
 const RANKED: usize = 1 << 14;
 
@@ -63,6 +66,8 @@ pub struct BroadPhase<T: Real> {
     grids: Vec<(Grid<T>, u32)>,
     ranks: Vec<u32>,
     order: CellOrder,
+    /// The greatest coordinate at the last search, length.
+    farthest: T,
     /// Bodies in a diameter cubed, seen at the last search.
     density: Option<f64>,
     mean_diameter: f64,
@@ -82,6 +87,7 @@ impl<T: Real> BroadPhase<T> {
             grids: Vec::new(),
             ranks: Vec::new(),
             order: CellOrder::default(),
+            farthest: T::ZERO,
             density: None,
             mean_diameter: 2.0 * sum / len.max(1) as f64,
         }
@@ -103,6 +109,20 @@ impl<T: Real> BroadPhase<T> {
         T::from_f64(diameter * best)
     }
 
+    /// By how much the rounding of a coordinate can move a body in a step, length.
+    #[must_use]
+    pub fn rounding(&self) -> T {
+        self.farthest * T::EPSILON
+    }
+
+    /// The skin that finds all pairs that can have met within a step. Bodies so
+    /// fast that it would span many diameters may miss each other.
+    #[must_use]
+    pub fn swept(&self, travel: T) -> T {
+        let most = T::from_f64(self.mean_diameter * MOST_SWEPT);
+        (travel * T::ratio(9, 4)).lesser(most)
+    }
+
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the
     /// order that is returned is the one to be put at place `k`.
     pub fn sort(&mut self, surveyed: &Surveyed<'_, T>, skin: T, workers: &Workers) -> &[u32] {
@@ -114,6 +134,7 @@ impl<T: Real> BroadPhase<T> {
             .into_iter()
             .chain(upper.to_array())
             .fold(T::ZERO, |most, c| Lane::abs(c).greater(most));
+        self.farthest = farthest;
         let margin = farthest * T::EPSILON * T::whole(16);
 
         let mut class_counts = vec![0_usize; self.reaches.len()];

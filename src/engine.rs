@@ -84,6 +84,16 @@ pub enum EngineError {
     /// The stepped engine needs the length of a step.
     #[error("the scene has no step; set `dt` under [stepped], or `--dt`, to its length in time")]
     NoStep,
+    /// A world can't be advanced by this.
+    #[error(
+        "a world can't be advanced by {duration}; give a duration from 0 to 2^53 steps of {dt}"
+    )]
+    Duration {
+        /// What was asked for, time.
+        duration: f64,
+        /// The length of a step, time.
+        dt: f64,
+    },
     /// The system has no threads to give.
     #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]
     Threads(#[from] rayon::ThreadPoolBuildError),

@@ -166,7 +166,8 @@ pub trait Lane:
     /// If the column is shorter than `WIDTH`.
     #[inline(always)]
     fn store(self, column: &mut [Self::Scalar]) {
-        column[..Self::WIDTH].copy_from_slice(self.to_array().as_ref());
+        // As an array: copied as a slice it would go real by real.
+        Self::arrays_mut(&mut column[..Self::WIDTH]).0[0] = self.to_array();
     }
 
     /// Up to `WIDTH` values of a column; lanes past its end take `padding`.

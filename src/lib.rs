@@ -1,4 +1,96 @@
-//! carom simulates rigid spheres in motion.
+//! Rigid spheres in motion: free flight and elastic collisions, smooth and
+//! perfectly rough, between spheres and with fixed surroundings.
+//!
+//! Every formula is one function, generic over the precision ([`f32`] or
+//! [`f64`]) and over the number of reals that go through it at once (1, 4, 8
+//! or 16 [lanes](lane)). The lanes, the threads and the instruction set change
+//! the time of a run and no bit of its result.
+//!
+//! # A first program
+//!
+//! ```
+//! use carom::{Cuboid, Scene, Spheres, Stepped, Surface};
+//!
+//! let scene = Scene::<f64>::builder()
+//!     .gravity([0.0, 0.0, -9.81])
+//!     .surface(Surface::Rough)
+//!     .surroundings(Cuboid::container([0.0; 3], [10.0; 3]))
+//!     .spheres(Spheres::random(10_000).radius(0.1).temperature(1.0).seed(7))
+//!     .dt(1e-3)
+//!     .build()?;
+//! let mut world = Stepped::new(scene)?;
+//! world.advance(0.1)?;
+//! println!("{}", world.energy());
+//! assert!(world.collisions().pairs > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The same scene as a file for the program `carom` is in
+//! [`docs/scene-file.md`](https://github.com/carom-rs/carom/blob/main/docs/scene-file.md).
+//!
+//! # Modules, in the order of the data
+//!
+//! | module | what it has |
+//! |---|---|
+//! | [`scene`] | what is simulated, from a file or a builder, checked |
+//! | [`bodies`], [`mod@column`] | the spheres, a padded column for each component |
+//! | [`surroundings`] | what is fixed in space, and the periodic box |
+//! | [`engine`] | the plan of a scene, and the engine that moves it |
+//! | [`motion`] | free flight: integrators and rotation |
+//! | [`contact`] | impulses and the time of contact |
+//! | [`observe`] | energy, momentum, temperature, pressure, the state hash |
+//! | [`output`] | events, states and the summary |
+//!
+//! Under all of them are the numbers: [`real`] (the precisions), [`lane`]
+//! (several reals at once), [`vec3`], [`mat3`], [`trigonometry`] and
+//! [`compensated`] (sums and products whose rounding error is kept).
+//!
+//! # Formulas without an engine
+//!
+//! The formulas are public, over single numbers, lanes and slices: see
+//! [`motion::flight`](mod@motion::flight), [`motion::turning`] and [`contact::collide`].
+//!
+//! ```
+//! use carom::contact::{Party, collide};
+//! use carom::Vec3;
+//!
+//! // A solid ball of mass 1 and radius ½ comes down on a rough floor.
+//! let mut ball = Party {
+//!     velocity: Vec3::new(1.0, 0.0, -1.0),
+//!     spin: Vec3::new(0.0, 0.0, 0.0),
+//!     inverse_mass: 1.0,
+//!     inverse_inertia: 10.0,
+//!     share: 1.0,
+//! };
+//! let from_contact_to_center = Vec3::new(0.0, 0.0, 0.5);
+//! collide::<f64, true>(from_contact_to_center, &mut ball, &mut Party::immovable());
+//! assert_eq!(ball.velocity.z, 1.0);
+//! assert!((ball.velocity.x - 3.0 / 7.0).abs() < 1e-15);
+//! ```
+//!
+//! # Limits
+//!
+//! There is one engine, in steps of fixed length; a scene for the event-driven
+//! engine can be built, and nothing runs it yet. Bodies are spheres; what is
+//! fixed is a plane, an axis-aligned box or a sphere. Contacts lose no energy:
+//! there is no restitution below 1 and no friction between "none" and "perfect".
+//! A scene has at most [a hundred million](scene::MOST_BODIES) bodies, and the
+//! squares of its lengths and speeds must be in the precision's range.
+//! `docs/conventions.md` in the repository has all of them.
+//!
+//! # Features and safety
+//!
+//! There are no cargo features. The crate has no unsafe code
+//! (`unsafe_code = "forbid"`). User input gives errors, not panics.
+//!
+//! The instructions are chosen when the crate is compiled. Without flags that
+//! is SSE2 on x86-64; a crate that depends on this one gets the instructions of
+//! the machine at hand with, in its own `.cargo/config.toml`,
+//!
+//! ```toml
+//! [build]
+//! rustflags = ["-C", "target-cpu=native"]
+//! ```
 
 pub mod bodies;
 mod broadphase;
@@ -17,3 +109,18 @@ pub mod surroundings;
 pub mod trigonometry;
 pub mod vec3;
 mod workers;
+
+// What a first program needs.
+pub use bodies::Bodies;
+pub use contact::Surface;
+pub use engine::{EngineError, Event, Execution, Impact, Lanes, Partner, Stepped};
+pub use motion::Integrator;
+pub use observe::{AngularMomentum, Energy, Momentum, Temperature, state_hash};
+pub use scene::{Encounters, Scene, SceneBuilder, SceneError, SceneFile, Sphere, Spheres};
+pub use surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane};
+pub use vec3::Vec3;
+
+/// The programs of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

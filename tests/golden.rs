@@ -14,10 +14,14 @@
 
 mod common;
 
+use carom::contact::{Party, collide};
+use carom::engine::{Impact, Stepped};
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
+use carom::observe::state_hash;
 use carom::real::Real;
+use carom::scene::SceneFile;
 use carom::surroundings::OpenSpace;
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
@@ -37,6 +41,16 @@ const GOLDEN: &[Entry] = &[
     ("turning f64", turning::<f64>, 0xd79d_ad72_405d_f75a),
     ("flight f32", flights::<f32>, 0x58b9_50ff_4b45_5fcb),
     ("flight f64", flights::<f64>, 0xefa4_71d9_b3c9_6153),
+    ("smooth impulse f32", impulses::<f32, false>, 0),
+    ("smooth impulse f64", impulses::<f64, false>, 0),
+    ("rough impulse f32", impulses::<f32, true>, 0),
+    ("rough impulse f64", impulses::<f64, true>, 0),
+    ("rough gas, end of step f32", || engine::<f32>("rough-gas", Impact::EndOfStep), 0),
+    ("rough gas, end of step f64", || engine::<f64>("rough-gas", Impact::EndOfStep), 0),
+    ("mixture, sub-step f32", || engine::<f32>("mixture", Impact::SubStep), 0),
+    ("mixture, sub-step f64", || engine::<f64>("mixture", Impact::SubStep), 0),
+    ("fluid, sub-step f32", || engine::<f32>("hard-sphere-fluid", Impact::SubStep), 0),
+    ("fluid, sub-step f64", || engine::<f64>("hard-sphere-fluid", Impact::SubStep), 0),
 ];
 
 #[test]
@@ -117,4 +131,35 @@ fn flights<T: Real>() -> u64 {
         }
     }
     hash(position.into_iter().chain(velocity).flatten())
+}
+
+/// Impulses between random bodies.
+fn impulses<T: Real, const ROUGH: bool>() -> u64 {
+    let mut random = Random(7);
+    let mut results = Vec::new();
+    for _ in 0..COUNT {
+        let offset = random.vector::<T>();
+        let mut party = || Party {
+            velocity: random.vector(),
+            spin: random.vector(),
+            inverse_mass: random.unit::<T>() + T::whole(2),
+            inverse_inertia: random.unit::<T>() + T::whole(5),
+            share: T::ratio(1, 3),
+        };
+        let (mut a, mut b) = (party(), party());
+        collide::<T, ROUGH>(offset, &mut a, &mut b);
+        for v in [a.velocity, a.spin, b.velocity, b.spin] {
+            results.extend(v.to_array());
+        }
+    }
+    hash(results)
+}
+
+/// The state of a built-in scene after some steps of the stepped engine.
+fn engine<T: Real>(name: &str, impact: Impact) -> u64 {
+    let mut scene = SceneFile::builtin(name).unwrap().build::<T>().unwrap();
+    scene.stepped.impact = impact;
+    let mut world = Stepped::new(scene).unwrap();
+    world.advance_steps(100);
+    state_hash(&world.bodies()).0
 }

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use super::grid::{Grid, Runs};
+use super::grid::Grid;
 use crate::bodies::Figure;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
@@ -85,7 +85,7 @@ impl Candidates {
     /// How many shells are to be tested when two bodies can have come `nearer`
     /// by this much since a search with this skin, lengths.
     pub fn shells_within<T: Real>(nearer: T, skin: T) -> usize {
-        1 + shell_ends(skin).iter().filter(|&&end| !(nearer < end)).count()
+        SHELLS - shell_ends(skin).iter().filter(|&&end| nearer < end).count()
     }
 
     /// The bytes that the lists hold in memory.
@@ -127,10 +127,10 @@ pub(super) fn shell_ends<T: Real>(skin: T) -> [T; SHELLS - 1] {
     core::array::from_fn(|k| shell * T::whole(k as i32 + 1))
 }
 
-/// The runs of places around a cell: of nine rows, each two at most.
+/// The runs of places around a cell: its own, and two of nine rows at most.
 #[derive(Default)]
 struct NearPlaces {
-    all: [Range<u32>; 18],
+    all: [Range<u32>; 19],
     count: usize,
 }
 
@@ -160,7 +160,10 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
             if bodies.is_empty() {
                 continue;
             }
-            self.places_from(searched, rank, &mut places);
+            // The cell itself, then those of its neighbours that stand later.
+            places.count = 0;
+            places.push(bodies.clone());
+            searched.grid.for_each_later_run(rank, |run| places.push(self.places(searched, run)));
             for body in bodies {
                 let point = self.point(body as usize);
                 for run in places.runs() {
@@ -178,21 +181,6 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
                 }
             }
         }
-    }
-
-    /// The places in a cell and its neighbours that are not all before it.
-    #[inline(always)]
-    fn places_from(&self, searched: &SearchedGrid<T>, rank: u32, places: &mut NearPlaces) {
-        let cell = searched.grid.cell_of_rank(rank);
-        let own = rank - cell[0];
-        places.count = 0;
-        searched.grid.for_each_neighbour_row(cell, |row, runs: Runs| {
-            if row >= own {
-                for run in runs {
-                    places.push(self.places(searched, run));
-                }
-            }
-        });
     }
 
     /// The places of the bodies in a run of cells.

@@ -100,6 +100,30 @@ impl<T: Real> Grid<T> {
         [rank % self.cells[0], row % self.cells[1], row / self.cells[1]]
     }
 
+    /// Calls `visit` with the runs of the neighbours that have greater ranks
+    /// than the cell's own, each cell once.
+    #[inline(always)]
+    pub fn for_each_later_run(&self, rank: u32, mut visit: impl FnMut(Range<u32>)) {
+        let cell = self.cell_of_rank(rank);
+        let is_inner = (0..3).all(|k| cell[k] > 0 && cell[k] + 1 < self.cells[k]);
+        if is_inner {
+            let (row, layer) = (self.cells[0], self.cells[0] * self.cells[1]);
+            visit(rank + 1..rank + 2);
+            for middle in [rank + row, rank + layer - row, rank + layer, rank + layer + row] {
+                visit(middle - 1..middle + 2);
+            }
+            return;
+        }
+        let own = rank - cell[0];
+        self.for_each_neighbour_row(cell, |row, runs| {
+            if row >= own {
+                for run in runs {
+                    visit(run.start.max(rank + 1)..run.end);
+                }
+            }
+        });
+    }
+
     /// Calls `visit` with the ranks of the cell's neighbours and itself, row by
     /// row as runs, each cell once.
     #[inline(always)]
@@ -163,6 +187,23 @@ mod tests {
                         assert_eq!(count as u32, expected);
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn later_runs_are_the_neighbours_with_greater_ranks() {
+        for cells in [[1, 1, 1], [2, 1, 3], [3, 3, 3], [5, 4, 6]] {
+            let grid =
+                Grid { origin: Vec3::ZERO, cells_per_length: Vec3::new(1.0, 1.0, 1.0), cells };
+            for rank in 0..grid.len() as u32 {
+                let mut later = Vec::new();
+                grid.for_each_later_run(rank, |run| later.extend(run));
+                let mut expected = neighbour_cells(&grid, grid.cell_of_rank(rank));
+                expected.retain(|&other| other > rank);
+                later.sort_unstable();
+                expected.sort_unstable();
+                assert_eq!(later, expected, "around {rank} of {cells:?}");
             }
         }
     }

@@ -22,9 +22,10 @@ use crate::broadphase::{BroadPhase, Candidates};
 use crate::lane::Lane;
 use crate::motion::Integrator;
 use crate::motion::turning::turn;
+use crate::observe::Energy;
 use crate::real::Real;
-use crate::scene::Scene;
-use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space};
+use crate::scene::{MOST_STEPS, Scene};
+use crate::surroundings::{Feature, OpenSpace, PeriodicBox};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 use contacts::{Contact, Rounds};
@@ -71,7 +72,7 @@ use in_lanes;
 ///     .dt(0.125)
 ///     .build()?;
 /// let mut world = Stepped::new(scene)?;
-/// world.advance(2.0);
+/// world.advance(2.0)?;
 /// assert_eq!(world.collisions().pairs, 1);
 /// assert_eq!(world.bodies().velocity_of(1).x, 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -80,6 +81,9 @@ use in_lanes;
 pub struct Stepped<T: Real> {
     plan: Plan,
     dt: T,
+    /// The scene's own step, before it was rounded to the precision.
+    exact_dt: f64,
+    gravity: Vec3<T>,
     integrator: Integrator,
     acceleration: Option<Vec3<T>>,
     periodic: Option<PeriodicBox<T>>,
@@ -124,7 +128,8 @@ impl<T: Real> Stepped<T> {
     /// # Errors
     /// If the scene has no `dt`, or the system no threads to give.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
-        let dt = T::from_f64(scene.stepped.dt.ok_or(EngineError::NoStep)?);
+        let exact_dt = scene.stepped.dt.ok_or(EngineError::NoStep)?;
+        let dt = T::from_f64(exact_dt);
         let workers = Workers::new(execution.threads)?;
         let plan = Plan::new(&scene, execution, workers.threads());
         let len = scene.bodies.len();
@@ -145,6 +150,8 @@ impl<T: Real> Stepped<T> {
         let is_within = plan.impact == Impact::SubStep;
         Ok(Self {
             dt,
+            exact_dt,
+            gravity: scene.gravity,
             integrator: plan.integrator,
             acceleration: plan.has_field.then_some(scene.gravity),
             periodic: scene.periodic,
@@ -189,10 +196,17 @@ impl<T: Real> Stepped<T> {
         self.steps
     }
 
-    /// Time since the start: steps times their length.
+    /// Time since the start: steps times their length as the scene gives it,
+    /// not as the precision rounds it.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.steps as f64 * self.dt.to_f64()
+        self.steps as f64 * self.exact_dt
+    }
+
+    /// The energy of all bodies now.
+    #[must_use]
+    pub fn energy(&self) -> Energy {
+        Energy::of(&self.bodies(), self.gravity)
     }
 
     /// Collisions since the start.
@@ -250,9 +264,16 @@ impl<T: Real> Stepped<T> {
     }
 
     /// Takes the whole number of steps that is nearest to `duration`, time.
-    pub fn advance(&mut self, duration: f64) {
-        let steps = (duration / self.dt.to_f64()).round().max(0.0) as u64;
-        self.advance_steps(steps);
+    ///
+    /// # Errors
+    /// If the duration is negative, not finite, or more than 2⁵³ steps long.
+    pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
+        let steps = (duration / self.exact_dt).round();
+        if !(0.0..=MOST_STEPS).contains(&steps) {
+            return Err(EngineError::Duration { duration, dt: self.exact_dt });
+        }
+        self.advance_steps(steps as u64);
+        Ok(())
     }
 
     /// Takes this many steps.
@@ -283,7 +304,7 @@ impl<T: Real> Stepped<T> {
         if !self.plan.has_pairs && self.features.is_empty() {
             return;
         }
-        self.travelled = self.travelled + travel;
+        self.travelled = self.travelled + travel + self.broadphase.rounding();
         let is_valid = (self.travelled + self.travelled).lt(self.skin);
         if self.steps == 1 || !is_valid {
             in_lanes!(plan.gather_lanes, self.renew_candidates::<T>(workers, travel));
@@ -311,12 +332,20 @@ impl<T: Real> Stepped<T> {
             let position = position.each_mut().map(|column| &mut **column);
             let velocity = velocity.each_mut().map(|column| &mut **column);
             *fastest = match periodic {
-                None => {
-                    fly_chunk::<L, _>(integrator, position, velocity, acceleration, dt, OpenSpace)
-                }
-                Some(space) => {
-                    fly_chunk::<L, _>(integrator, position, velocity, acceleration, dt, space)
-                }
+                None => integrator.flight_and_fastest::<L, _>(
+                    position,
+                    velocity,
+                    acceleration,
+                    dt,
+                    OpenSpace,
+                ),
+                Some(space) => integrator.flight_and_fastest::<L, _>(
+                    position,
+                    velocity,
+                    acceleration,
+                    dt,
+                    space,
+                ),
             };
         });
         let fastest = chunks.iter().fold(T::ZERO, |most, chunk| chunk.2.greater(most));
@@ -325,17 +354,29 @@ impl<T: Real> Stepped<T> {
     }
 
     /// `M ← R M` for every body.
-    fn rotate<L: Lane<Scalar = T>>(&mut self, _workers: &Workers) {
-        if let Some(rows) = &mut self.state.orientation {
-            let spin = self.state.spin.each_ref().map(|column| &column[..]);
-            turn::<L>(rows.each_mut().map(|row| &mut row[..]), spin, self.dt);
-        }
+    fn rotate<L: Lane<Scalar = T>>(&mut self, workers: &Workers) {
+        let Some(rows) = &mut self.state.orientation else { return };
+        let mut rows = rows.each_mut().map(|row| row.chunks_mut(FLOWN));
+        let mut spins = self.state.spin.each_ref().map(|column| column.chunks(FLOWN));
+        let mut chunks: Vec<_> = (0..self.plan.bodies.div_ceil(FLOWN))
+            .map(|_| {
+                let rows = rows.each_mut().map(|row| row.next().unwrap_or_default());
+                (rows, spins.each_mut().map(|column| column.next().unwrap_or_default()))
+            })
+            .collect();
+        let dt = self.dt;
+        workers.each(&mut chunks, |(rows, spin)| {
+            turn::<L>(rows.each_mut().map(|row| &mut **row), *spin, dt);
+        });
     }
 
     /// Searches anew for all that can touch within the skin.
     fn renew_candidates<L: Lane<Scalar = T>>(&mut self, workers: &Workers, travel: T) {
         // Two bodies may have passed each other within the step just taken.
-        let swept = travel * T::ratio(9, 4);
+        let swept = match self.plan.impact {
+            Impact::EndOfStep => T::ZERO,
+            Impact::SubStep => self.broadphase.swept(travel),
+        };
         self.skin = self.broadphase.skin(travel, self.skin).greater(swept);
         let (periodic, pairs) = (self.periodic, self.plan.has_pairs);
         let surveyed = self.state.surveyed(periodic, &self.features, pairs);
@@ -349,16 +390,4 @@ impl<T: Real> Stepped<T> {
             Impact::SubStep => travel,
         };
     }
-}
-
-/// Flies the bodies of a chunk; returns the greatest speed squared.
-fn fly_chunk<L: Lane, S: Space<L::Scalar>>(
-    integrator: Integrator,
-    position: [&mut [L::Scalar]; 3],
-    velocity: [&mut [L::Scalar]; 3],
-    acceleration: Option<Vec3<L::Scalar>>,
-    dt: L::Scalar,
-    space: S,
-) -> L::Scalar {
-    integrator.flight_and_fastest::<L, S>(position, velocity, acceleration, dt, space)
 }

@@ -102,7 +102,8 @@ pub fn integrator_drift(
         Integrator::VelocityVerlet => 0.0,
     };
     let speed_gained = acceleration * dt;
-    sign * steps as f64 * (speed_gained * speed_gained) * mass / 2.0
+    // Adding 0 takes the sign off a drift of −0.
+    sign * steps as f64 * (speed_gained * speed_gained) * mass / 2.0 + 0.0
 }
 
 impl fmt::Display for Energy {

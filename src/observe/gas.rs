@@ -80,6 +80,8 @@ pub fn collision_rate(bodies: usize, pairs: u64, time: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     /// The published Z and the independent Γ of the hard-sphere fluid belong
@@ -95,9 +97,9 @@ mod tests {
             // part, weighted by itself, for m = kT = σ = 1.
             let virial = pairs as f64 * core::f64::consts::PI.sqrt();
             let rate = collision_rate(bodies, pairs, time);
-            assert!((rate - gamma).abs() < 1e-6);
+            assert_abs_diff_eq!(rate, gamma, epsilon = 1e-6);
             let measured = compressibility(bodies, virial, 1.0, time);
-            assert!((measured - z).abs() < 4e-4, "{measured} {z}");
+            assert_abs_diff_eq!(measured, z, epsilon = 4e-4);
         }
     }
 }

@@ -113,6 +113,8 @@ impl Random {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::{Purpose, Random};
 
     #[test]
@@ -134,9 +136,9 @@ mod tests {
         for (moment, (expected, error)) in
             moments.iter().zip([(1.0, 1e-9), (0.0, 5e-3), (1.0, 7.1e-3), (0.0, 0.02), (3.0, 0.05)])
         {
-            assert!((moment - expected).abs() < error, "{moment} for {expected}");
+            assert_abs_diff_eq!(*moment, expected, epsilon = error);
         }
-        assert!((tail as f64 / f64::from(count) - 0.05).abs() < 1.1e-3);
+        assert_abs_diff_eq!(tail as f64 / f64::from(count), 0.05, epsilon = 1.1e-3);
     }
 
     #[test]

@@ -150,9 +150,9 @@ fn hard_sphere_fluid_has_the_published_pressure() {
         .build()
         .unwrap();
     let mut world = world(scene, FAST);
-    world.advance(1.0);
+    world.advance(1.0).unwrap();
     let (virial, pairs, time) = (world.virial(), world.collisions().pairs, world.time());
-    world.advance(4.0);
+    world.advance(4.0).unwrap();
     let time = world.time() - time;
     let bodies = world.bodies();
     let temperature = Temperature::of(&bodies).unwrap().translational;

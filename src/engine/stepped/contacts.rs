@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn order_is_by_time_then_body_then_surroundings_first() {
         let wall = Contact { rank: Rank::of_surroundings(1, 7), a: 1, b: 7, ago: 0.5 };
-        let mut contacts = vec![pair(2, 1, 0.5), pair(0, 3, 0.1), wall, pair(5, 0, 0.5)];
+        let mut contacts = [pair(2, 1, 0.5), pair(0, 3, 0.1), wall, pair(5, 0, 0.5)];
         contacts.sort_unstable_by(Contact::order);
         let ranks: Vec<_> = contacts.iter().map(|contact| contact.rank).collect();
         assert_eq!(

@@ -94,7 +94,6 @@ impl<T: Real> Stepped<T> {
         let mut waiting = core::mem::take(&mut self.waiting);
         let mut now = core::mem::take(&mut self.now);
         let mut outcomes = core::mem::take(&mut self.outcomes);
-        let mut jump = T::ZERO;
         for _ in 0..MOST_ROUNDS {
             if waiting.is_empty() {
                 break;
@@ -108,17 +107,18 @@ impl<T: Real> Stepped<T> {
             outcomes.clear();
             outcomes.resize(now.len(), Outcome::NONE);
             self.impulses(workers, &now, &mut outcomes);
+            let mut jump = T::ZERO;
             for (contact, outcome) in now.iter().zip(&outcomes) {
                 if outcome.collided {
                     jump = self.apply(contact, outcome, record.as_deref_mut()).greater(jump);
                 }
             }
+            self.travelled = self.travelled + jump;
             if is_within {
                 self.find_again(&mut waiting, &now);
             }
         }
         self.struck.clear();
-        self.travelled = self.travelled + jump;
         (self.waiting, self.now, self.outcomes) = (waiting, now, outcomes);
     }
 
@@ -296,8 +296,44 @@ impl<T: Real> Stepped<T> {
             }
             self.search_chunk::<T>(within, &near, &mut found);
         }
-        found.retain(|contact| self.struck.allows(contact));
-        waiting.extend(found);
+        waiting.extend(found.into_iter().filter_map(|contact| self.on_new_path(contact)));
         waiting.sort_unstable_by(Contact::order);
+    }
+
+    /// A contact at the time when it takes effect on the new paths of its bodies:
+    /// where it seems to have come before they took them, at their beginning, if
+    /// the surfaces touch and approach there, as those of balls in a row do.
+    fn on_new_path(&self, contact: Contact<T>) -> Option<Contact<T>> {
+        match self.struck.last_before(&contact).ok()? {
+            Some(last) if contact.ago > last => {
+                self.is_touching(&contact, last).then_some(Contact { ago: last, ..contact })
+            }
+            _ => Some(contact),
+        }
+    }
+
+    /// Whether the surfaces of a contact touch, to rounding, and approach a time
+    /// before the end of the step.
+    fn is_touching(&self, contact: &Contact<T>, ago: T) -> bool {
+        let rounding = self.broadphase.rounding() * T::whole(8);
+        let (state, path) = (&self.state, &self.path);
+        let a = contact.a as usize;
+        let (position, velocity) = (at(&state.position, a), at(&state.velocity, a));
+        let radius = state.radius.of(a);
+        if contact.rank.is_pair() {
+            let b = contact.b as usize;
+            let relative = velocity - at(&state.velocity, b);
+            let offset = position - at(&state.position, b);
+            let offset = self.periodic.map_or(offset, |space| space.nearest(offset));
+            let offset = offset - relative * ago;
+            let reach = radius + state.radius.of(b) + rounding;
+            offset.length_squared() <= reach * reach && relative.dot(offset) < T::ZERO
+        } else {
+            let end_velocity = path.end_velocity(velocity);
+            let center = path.center(position, end_velocity, ago);
+            let clearance = self.features[contact.b as usize].clearance::<T>(center, radius);
+            let approach = path.velocity(end_velocity, ago).dot(clearance.arm);
+            clearance.gap <= rounding && approach < T::ZERO
+        }
     }
 }

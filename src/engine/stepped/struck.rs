@@ -3,6 +3,10 @@
 use super::contacts::{Contact, Rank};
 use crate::real::Real;
 
+/// The same two bodies met twice in a row.
+#[derive(Debug)]
+pub(super) struct Again;
+
 /// The last contact of each body within the present step. Before it, the
 /// body's path is not the one that ends where the body now is.
 #[derive(Debug)]
@@ -31,15 +35,20 @@ impl<T: Real> Struck<T> {
         self.places.push(place);
     }
 
-    /// Whether a contact came after the last one of its bodies, and is not
-    /// that one again with nothing between.
-    pub fn allows(&self, contact: &Contact<T>) -> bool {
-        let last = |place: u32| self.last[place as usize];
-        let is_later = |last: Option<(T, Rank)>| last.is_none_or(|(ago, _)| contact.ago <= ago);
+    /// The last contact of a contact's bodies, by its time before the end of the
+    /// step, if any had one; `Err` if it is that one again, with nothing between.
+    pub fn last_before(&self, contact: &Contact<T>) -> Result<Option<T>, Again> {
+        let a = self.last[contact.a as usize];
+        let b = if contact.rank.is_pair() { self.last[contact.b as usize] } else { a };
         let is_same = |last: Option<(T, Rank)>| last.is_some_and(|(_, rank)| rank == contact.rank);
-        let a = last(contact.a);
-        let b = if contact.rank.is_pair() { last(contact.b) } else { a };
-        is_later(a) && is_later(b) && !(is_same(a) && is_same(b))
+        if is_same(a) && is_same(b) {
+            return Err(Again);
+        }
+        let later = |(a, _): (T, Rank), (b, _): (T, Rank)| a.lesser(b);
+        Ok(match (a, b) {
+            (Some(a), Some(b)) => Some(later(a, b)),
+            (last, None) | (None, last) => last.map(|(ago, _)| ago),
+        })
     }
 
     /// The bytes of the marks.
