@@ -17,7 +17,7 @@ use crate::real::Real;
 ///
 /// | angle up to | error |
 /// |---|---|
-/// | `q·π/2` (4·10⁵, 2·10¹⁴) | below 0.8 units in the last place, also next to a multiple of π/2 |
+/// | `q·π/2` (4·10⁵, 2·10¹⁴) | below 0.81 units in the last place, also next to a multiple of π/2 |
 /// | `q·d/8` (2·10¹¹, 7·10²⁸) | absolute, below ε |
 /// | the greatest number | taken for the angle 0: numbers are whole turns apart |
 ///
@@ -110,7 +110,8 @@ fn without_whole_turns<L: Lane>(head: L, tail: L) -> (L, L) {
 ///
 /// ```
 /// use carom::trigonometry::sine_ratio_deficit;
-/// assert!((sine_ratio_deficit(6e-20) - 1e-20).abs() < 1e-35);
+/// let deficit: f64 = sine_ratio_deficit(6e-20);
+/// assert!((deficit - 1e-20).abs() < 1e-35);
 /// ```
 #[inline(always)]
 pub fn sine_ratio_deficit<L: Lane>(square: L) -> L {

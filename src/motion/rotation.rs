@@ -73,21 +73,63 @@ pub fn reference_rotation<L: Lane>(spin: Vec3<L>, time: L) -> Mat3<L> {
 /// ```
 #[inline(always)]
 pub fn turned<L: Lane>(orientation: Mat3<L>, spin: Vec3<L>, time: L) -> Mat3<L> {
-    let Change { lead, rest, is_small } = rotation_change(spin, time);
-    let newton = newton_correction(orientation);
-    let after = Mat3 {
-        columns: core::array::from_fn(|k| {
-            let (axis, correction) = (orientation.columns[k], newton.columns[k]);
-            let mended = axis + correction;
-            axis + (correction + (lead.cross(mended) + rest * mended))
-        }),
-    };
+    let (x, x_tail) = two_product(spin.x, time);
+    let (y, y_tail) = two_product(spin.y, time);
+    let (z, z_tail) = two_product(spin.z, time);
+    let (angle, angle_tail) = (Vec3::new(x, y, z), Vec3::new(x_tail, y_tail, z_tail));
+
+    // What (sin h)/h and cos h lack to 1, and their product.
+    let square = angle.length_squared() * L::ratio(1, 4);
+    let (ratio, cosine) = (sine_ratio_deficit(square), cosine_deficit(square));
+    let product = (ratio + cosine) - ratio * cosine;
+    let rest = change(angle, angle_tail - angle * product, L::ONE - ratio);
+    let after = changed(orientation, angle, rest);
+
+    let [quarter_turn, ..] = L::Scalar::QUARTER_TURN;
+    let is_small = square.le(L::splat(quarter_turn * quarter_turn * L::Scalar::ratio(1, 4)));
     if is_small.all() {
         after
     } else {
-        // A great change has errors of some ε itself.
-        Mat3::select(is_small, after, orthonormalised(after))
+        Mat3::select(is_small, after, turned_far(orientation, spin, time))
     }
+}
+
+/// [`turned`] for angles beyond a quarter turn. The change has errors of some ε
+/// itself here, so there is a second Newton step.
+#[cold]
+fn turned_far<L: Lane>(orientation: Mat3<L>, spin: Vec3<L>, time: L) -> Mat3<L> {
+    let (cosine, ratio) = far_cosine_and_ratio(spin, time);
+    let angle = spin * time;
+    let all = change(angle, angle * (cosine * ratio), ratio);
+    orthonormalised(changed(orientation, Vec3::ZERO, all))
+}
+
+/// `R − 1` of the rotation by the angle vector `a = |a| n`, which is
+/// `[sin|a| n]× + (1 − cos|a|) [n]×²` (Rodrigues 1840), from `sines = sin|a| n`
+/// and `ratio = (sin h)/h`, `h = |a|/2`: `(1 − cos|a|)/|a|² = ½ ratio²`.
+#[inline(always)]
+fn change<L: Lane>(angle: Vec3<L>, sines: Vec3<L>, ratio: L) -> Mat3<L> {
+    let scaled = angle * (ratio * ratio * L::ratio(1, 2));
+    let (xx, yy, zz) = (scaled.x * angle.x, scaled.y * angle.y, scaled.z * angle.z);
+    let (xy, xz, yz) = (scaled.x * angle.y, scaled.x * angle.z, scaled.y * angle.z);
+    Mat3::from_columns(
+        Vec3::new(-(yy + zz), xy + sines.z, xz - sines.y),
+        Vec3::new(xy - sines.z, -(xx + zz), yz + sines.x),
+        Vec3::new(xz + sines.y, yz - sines.x, -(xx + yy)),
+    )
+}
+
+/// `(1 + [lead]× + rest) (M + N)`, with the Newton correction `N` of `M`, as one
+/// sum whose small terms are added first.
+#[inline(always)]
+fn changed<L: Lane>(m: Mat3<L>, lead: Vec3<L>, rest: Mat3<L>) -> Mat3<L> {
+    let after = |axis: Vec3<L>, correction: Vec3<L>| {
+        let mended = axis + correction;
+        axis + (correction + (lead.cross(mended) + rest * mended))
+    };
+    let [a, b, c] = m.columns;
+    let [a_newton, b_newton, c_newton] = newton_correction(m).columns;
+    Mat3::from_columns(after(a, a_newton), after(b, b_newton), after(c, c_newton))
 }
 
 /// One Newton step towards the nearest orthonormal matrix, `M(3 − MᵗM)/2`. An
@@ -102,8 +144,8 @@ pub fn turned<L: Lane>(orientation: Mat3<L>, spin: Vec3<L>, time: L) -> Mat3<L> 
 /// ```
 #[inline(always)]
 pub fn orthonormalised<L: Lane>(m: Mat3<L>) -> Mat3<L> {
-    let newton = newton_correction(m);
-    Mat3 { columns: core::array::from_fn(|k| m.columns[k] + newton.columns[k]) }
+    let ([a, b, c], [da, db, dc]) = (m.columns, newton_correction(m).columns);
+    Mat3::from_columns(a + da, b + db, c + dc)
 }
 
 /// `M(1 − MᵗM)/2`.
@@ -121,54 +163,9 @@ fn newton_correction<L: Lane>(m: Mat3<L>) -> Mat3<L> {
     )
 }
 
-/// What a rotation changes, `R − 1 = [lead]× + rest`, in two parts so that the
-/// greater is not rounded by the sum.
-struct Change<L: Lane> {
-    /// `wt`, or 0 for a great angle.
-    lead: Vec3<L>,
-    rest: Mat3<L>,
-    /// Up to a quarter turn.
-    is_small: L::Mask,
-}
-
-/// `R − 1 = sin|a| [n]× + (1 − cos|a|) [n]×²` of the angle vector
-/// `a = |a| n = wt` (Rodrigues 1840), by sine and cosine of `h = |a|/2`:
-/// `sin|a|/|a| = cos h (sin h)/h` and `(1 − cos|a|)/|a|² = ½((sin h)/h)²`.
-#[inline(always)]
-fn rotation_change<L: Lane>(spin: Vec3<L>, time: L) -> Change<L> {
-    let [(x, x_tail), (y, y_tail), (z, z_tail)] = spin.to_array().map(|w| two_product(w, time));
-    let (angle, angle_tail) = (Vec3::new(x, y, z), Vec3::new(x_tail, y_tail, z_tail));
-
-    // What (sin h)/h and cos h lack to 1, and their product.
-    let square = angle.length_squared() * L::ratio(1, 4);
-    let (ratio, cosine) = (sine_ratio_deficit(square), cosine_deficit(square));
-    let product = (ratio + cosine) - ratio * cosine;
-    let (mut lead, mut sines) = (angle, angle_tail - angle * product);
-    let mut ratio = L::ONE - ratio;
-
-    let [quarter_turn, ..] = L::Scalar::QUARTER_TURN;
-    let is_small = square.le(L::splat(quarter_turn * quarter_turn * L::Scalar::ratio(1, 4)));
-    if !is_small.all() {
-        let (far_cosine, far_ratio) = far_cosine_and_ratio(spin, time);
-        lead = Vec3::select(is_small, lead, Vec3::ZERO);
-        sines = Vec3::select(is_small, sines, angle * (far_cosine * far_ratio));
-        ratio = L::select(is_small, ratio, far_ratio);
-    }
-
-    let scaled = angle * (ratio * ratio * L::ratio(1, 2));
-    let (xx, yy, zz) = (scaled.x * angle.x, scaled.y * angle.y, scaled.z * angle.z);
-    let (xy, xz, yz) = (scaled.x * angle.y, scaled.x * angle.z, scaled.y * angle.z);
-    let rest = Mat3::from_columns(
-        Vec3::new(-(yy + zz), xy + sines.z, xz - sines.y),
-        Vec3::new(xy - sines.z, -(xx + zz), yz + sines.x),
-        Vec3::new(xz + sines.y, yz - sines.x, -(xx + yy)),
-    );
-    Change { lead, rest, is_small }
-}
-
 /// `cos h` and `(sin h)/h` of a great `h = |w|t/2`, with `h` to twice the
 /// digits.
-#[cold]
+#[inline(always)]
 fn far_cosine_and_ratio<L: Lane>(spin: Vec3<L>, time: L) -> (L, L) {
     let half_time = time * L::ratio(1, 2);
     let (mut square, mut square_tail) = (L::ZERO, L::ZERO);

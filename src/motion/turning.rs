@@ -32,19 +32,30 @@ pub fn turn<L: Lane>(orientation: [&mut [L::Scalar]; 9], spin: [&[L::Scalar]; 3]
     turn_arrays::<L::Scalar>(tail, spin.map(|(_, tail)| L::Scalar::arrays(tail).0), time);
 }
 
+// Column by column: `map` over nine of them is not inlined, and an index over
+// arrays of columns is checked against each, which costs a third of the speed.
 #[inline(always)]
-fn turn_arrays<L: Lane>(orientation: Arrays<L, 9>, spin: [&[L::Array]; 3], time: L::Scalar) {
+fn turn_arrays<L: Lane>(
+    [xx, xy, xz, yx, yy, yz, zx, zy, zz]: Arrays<L, 9>,
+    [x, y, z]: [&[L::Array]; 3],
+    time: L::Scalar,
+) {
     let time = L::splat(time);
-    // As many of each, so that no bound is checked in the loop.
-    let len = spin[0].len();
-    let spin = spin.map(|column| &column[..len]);
-    let orientation = orientation.map(|column| &mut column[..len]);
-    for i in 0..len {
-        let w = Vec3::<L>::from_arrays(spin.each_ref().map(|column| column[i]));
-        let m = Mat3::from_rows(orientation.each_ref().map(|column| L::from_array(column[i])));
-        let rows = turned(m, w, time).rows();
-        for k in 0..9 {
-            orientation[k][i] = rows[k].to_array();
-        }
+    let row_x = xx.iter_mut().zip(xy).zip(xz);
+    let row_y = yx.iter_mut().zip(yy).zip(yz);
+    let row_z = zx.iter_mut().zip(zy).zip(zz);
+    let spins = x.iter().zip(y).zip(z);
+    for (((((xx, xy), xz), ((yx, yy), yz)), ((zx, zy), zz)), ((x, y), z)) in
+        row_x.zip(row_y).zip(row_z).zip(spins)
+    {
+        let orientation = Mat3::from_columns(
+            Vec3::from_arrays([*xx, *yx, *zx]),
+            Vec3::from_arrays([*xy, *yy, *zy]),
+            Vec3::from_arrays([*xz, *yz, *zz]),
+        );
+        let [a, b, c] = turned(orientation, Vec3::<L>::from_arrays([*x, *y, *z]), time).columns;
+        [*xx, *yx, *zx] = a.to_arrays();
+        [*xy, *yy, *zy] = b.to_arrays();
+        [*xz, *yz, *zz] = c.to_arrays();
     }
 }
