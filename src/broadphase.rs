@@ -37,8 +37,10 @@ const MOST_GRIDS: usize = 24;
 const FIRST_DENSITY: f64 = 0.2;
 const FIRST_SKIN: f64 = 0.5;
 
-/// The widest skin for what may have met within a step, in mean diameters.
+/// The widest skin for what may have met within a step, in mean diameters, and
+/// how many bodies do not need it: that few can all be candidates of each other.
 const MOST_SWEPT: f64 = 4.0;
+const FEW: usize = 256;
 
 /// Bodies whose cells are found as one piece of work.
 const RANKED: usize = 1 << 14;
@@ -71,6 +73,7 @@ pub struct BroadPhase<T: Real> {
     /// Bodies in a diameter cubed, seen at the last search.
     density: Option<f64>,
     mean_diameter: f64,
+    len: usize,
 }
 
 impl<T: Real> BroadPhase<T> {
@@ -90,6 +93,7 @@ impl<T: Real> BroadPhase<T> {
             farthest: T::ZERO,
             density: None,
             mean_diameter: 2.0 * sum / len.max(1) as f64,
+            len,
         }
     }
 
@@ -115,12 +119,16 @@ impl<T: Real> BroadPhase<T> {
         self.farthest * T::EPSILON
     }
 
-    /// The skin that finds all pairs that can have met within a step. Bodies so
-    /// fast that it would span many diameters may miss each other.
+    /// The skin that finds all pairs that can have met within a step. Among many
+    /// bodies, those so fast that it would span many diameters may miss each
+    /// other.
     #[must_use]
     pub fn swept(&self, travel: T) -> T {
-        let most = T::from_f64(self.mean_diameter * MOST_SWEPT);
-        (travel * T::ratio(9, 4)).lesser(most)
+        let swept = travel * T::ratio(9, 4);
+        if self.len <= FEW {
+            return swept;
+        }
+        swept.lesser(T::from_f64(self.mean_diameter * MOST_SWEPT))
     }
 
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the

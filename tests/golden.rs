@@ -60,7 +60,7 @@ const GOLDEN: &[Entry] = &[
     (
         "fluid, sub-step f32",
         || engine::<f32>("hard-sphere-fluid", Impact::SubStep),
-        0x0422_6d71_d515_a0ec,
+        0x3793_0316_e52d_05aa,
     ),
     (
         "fluid, sub-step f64",

@@ -62,6 +62,31 @@ fn cradles() {
     }
 }
 
+/// Galperin's billiard: a ball at rest between a wall and a ball `100^k` times
+/// as heavy coming in collides `⌊π 10^k⌋` times in all, however many of them
+/// fall into one step.
+#[test]
+fn galperin() {
+    for (k, collisions) in [(0, 3), (1, 31), (2, 314)] {
+        for dt in [1e-3, 1e-2, 1e-1] {
+            let ball = |x: f64| Sphere::new([x, 0.0, 0.0]).radius(0.1);
+            let scene = Scene::<f64>::builder()
+                .surroundings(Plane::new([0.0; 3], [1.0, 0.0, 0.0]))
+                .sphere(ball(1.0))
+                .sphere(ball(5.0).mass(100.0_f64.powi(k)).velocity([-1.0, 0.0, 0.0]))
+                .impact(Impact::SubStep)
+                .dt(dt)
+                .build()
+                .unwrap();
+            let mut world = world(scene, FAST);
+            world.advance(40.0).unwrap();
+            let found = world.collisions();
+            println!("{k} {dt}: {found:?}");
+            assert_eq!(found.pairs + found.surroundings, collisions, "k = {k}, Δt = {dt}");
+        }
+    }
+}
+
 fn bouncing<T: Real>(integrator: Integrator, impact: Impact, dt: f64) -> SceneBuilder<T> {
     Scene::<T>::builder()
         .gravity([T::ZERO, T::ZERO, -T::ONE])

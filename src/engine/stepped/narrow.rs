@@ -99,11 +99,12 @@ impl<T: Real> Detection<T> for WithinStep<T> {
         }
         let relative = gather::<L>(&state.velocity, a) - gather::<L>(&state.velocity, b);
         let contact = past_contact(offset, relative, reach);
-        let is_within = contact.ago.ge(L::ZERO) & contact.ago.le(L::splat(self.path.duration));
-        let met_within = contact.met & is_within;
-        // What an earlier step has left overlapping collides now if it approaches.
+        let duration = L::splat(self.path.duration);
+        let met_within = contact.met & contact.ago.ge(L::ZERO) & contact.ago.le(duration);
+        // What an earlier step has left overlapping, or touching to rounding,
+        // collides at the beginning of this one if it still approaches.
         let is_left_over = distance_squared.le(reach * reach) & relative.dot(offset).lt(L::ZERO);
-        (met_within | is_left_over, L::select(met_within, contact.ago, L::ZERO))
+        (met_within | is_left_over, L::select(met_within, contact.ago, duration))
     }
 
     #[inline(always)]
