@@ -377,7 +377,10 @@ impl<T: Real> Stepped<T> {
             Impact::EndOfStep => T::ZERO,
             Impact::SubStep => self.broadphase.swept(travel),
         };
-        self.skin = self.broadphase.skin(travel, self.skin).greater(swept);
+        // Without pairs a candidate is a body near a fixed feature: there are few,
+        // and a search is worth many steps.
+        let alone = if self.plan.has_pairs { T::ZERO } else { travel * T::whole(64) };
+        self.skin = self.broadphase.skin(travel, self.skin).greater(swept).greater(alone);
         let (periodic, pairs) = (self.periodic, self.plan.has_pairs);
         let surveyed = self.state.surveyed(periodic, &self.features, pairs);
         let order = self.broadphase.sort(&surveyed, self.skin, workers);
