@@ -111,6 +111,9 @@ impl<T: Real> Stepped<T> {
             for (contact, outcome) in now.iter().zip(&outcomes) {
                 if outcome.collided {
                     jump = self.apply(contact, outcome, record.as_deref_mut()).greater(jump);
+                } else if is_within {
+                    // A graze that rounding turned away must not be found again.
+                    self.strike(contact);
                 }
             }
             self.travelled = self.travelled + jump;
@@ -194,12 +197,23 @@ impl<T: Real> Stepped<T> {
         if let Some(record) = record {
             record.push(*contact, self.event(contact, outcome));
         }
+        if self.plan.impact == Impact::SubStep {
+            self.strike(contact);
+        }
         let mut jump = self.give(contact, contact.a, outcome.a.velocity, outcome.a.spin);
         if is_pair {
             let moved = self.give(contact, contact.b, outcome.b.velocity, outcome.b.spin);
             jump = moved.greater(jump);
         }
         jump
+    }
+
+    /// Notes for the rest of the step that the bodies of a contact had it.
+    fn strike(&mut self, contact: &Contact<T>) {
+        self.struck.strike(contact.a, contact);
+        if contact.rank.is_pair() {
+            self.struck.strike(contact.b, contact);
+        }
     }
 
     fn give(&mut self, contact: &Contact<T>, place: u32, velocity: Vec3<T>, spin: Vec3<T>) -> T {
@@ -220,7 +234,6 @@ impl<T: Real> Stepped<T> {
                 Some(space) => space.wrap(position),
             };
             put(&mut self.state.position, at_place, position);
-            self.struck.strike(place, contact);
             jump = change.length() * T::ratio(65, 64);
         }
         put(&mut self.state.velocity, at_place, velocity);
