@@ -248,14 +248,19 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         }
     }
 
-    /// Finds the bodies of the chunk that are near to a feature.
+    /// Finds the bodies of the chunk that are near to a feature, themselves or
+    /// where the periodic box puts them when they leave it.
     pub fn surroundings<L: Lane<Scalar = T>>(&self, features: &[Feature<T>], chunk: &mut Chunk) {
+        let images = self.space.images();
         for (feature, near) in features.iter().zip(&mut chunk.at_feature) {
             for start in chunk.bodies.clone().step_by(L::WIDTH) {
                 let center = self.points(start);
                 let radius = self.radius.load_tail::<L>(start);
-                let gap = feature.clearance(center, radius).gap;
-                let mut bits = gap.lt(L::splat(self.skin)).bits();
+                let is_near = |image: &Vec3<T>| {
+                    let gap = feature.clearance(center + Vec3::splat(*image), radius).gap;
+                    gap.lt(L::splat(self.skin)).bits()
+                };
+                let mut bits = images.iter().map(is_near).fold(0, |all, bits| all | bits);
                 while bits != 0 {
                     let body = start as u32 + bits.trailing_zeros();
                     if (body as usize) < chunk.bodies.end {

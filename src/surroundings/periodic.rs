@@ -12,6 +12,9 @@ pub trait Space<T: Real>: Copy + Send + Sync {
 
     /// The shortest difference between two points' images.
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L>;
+
+    /// From a point to itself and to its images in the boxes around.
+    fn images(self) -> Vec<Vec3<T>>;
 }
 
 /// Space without bounds: every point is itself, at no cost.
@@ -27,6 +30,10 @@ impl<T: Real> Space<T> for OpenSpace {
     #[inline(always)]
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {
         difference
+    }
+
+    fn images(self) -> Vec<Vec3<T>> {
+        vec![Vec3::ZERO]
     }
 }
 
@@ -83,5 +90,17 @@ impl<T: Real> Space<T> for PeriodicBox<T> {
             nearest(difference.y, sides.y),
             nearest(difference.z, sides.z),
         )
+    }
+
+    fn images(self) -> Vec<Vec3<T>> {
+        let steps = |side: T| [T::ZERO, side, -side];
+        let sides = self.sides();
+        let mut images = Vec::new();
+        for x in steps(sides.x) {
+            for y in steps(sides.y) {
+                images.extend(steps(sides.z).map(|z| Vec3::new(x, y, z)));
+            }
+        }
+        images
     }
 }

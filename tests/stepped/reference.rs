@@ -129,6 +129,14 @@ fn scenes_agree<T: Real>() {
             .spheres(mixed);
         agree(periodic.build().unwrap(), 200);
 
+        // Bodies that leave the box come back right in front of the solid.
+        let lattice = builder()
+            .name("periodic, a solid at the boundary")
+            .periodic(PeriodicBox::new(corner(0.0), corner(6.0)))
+            .surroundings(FixedSphere::solid([t(1.21), t(3.0), t(3.0)], t(1.0)))
+            .spheres(Spheres::random(200).radius(0.2).temperature(4.0).seed(9));
+        agree(lattice.build().unwrap(), 600);
+
         let dense = Spheres::fcc(108).radius(0.5).number_density(1.1).temperature(1.0).seed(5);
         agree(builder().name("dense").periodic_cube().spheres(dense).build().unwrap(), 200);
 
