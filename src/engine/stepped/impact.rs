@@ -4,7 +4,7 @@ use super::contacts::Contact;
 use super::narrow::{WIDEST, gather, offset};
 use super::path::Path;
 use super::state::State;
-use crate::bodies::{Figure, PerBody, Same};
+use crate::bodies::PerBody;
 use crate::contact::{Impulse, Party, collide};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
@@ -122,8 +122,8 @@ impl<S> Impacts<S> {
                 b.share = L::ratio(1, 2);
             }
             PerBody::Each(radius) => {
-                let first = radius.gather_places::<L>(&first);
-                let second = radius.gather_places::<L>(&second);
+                let first = L::gather(radius, &first.places);
+                let second = L::gather(radius, &second.places);
                 let reach = first + second;
                 a.share = first / reach;
                 b.share = second / reach;
@@ -184,8 +184,8 @@ impl<S> Impacts<S> {
         }
         let at_contact = a.velocity;
         let radius = match &state.radius {
-            PerBody::Same(radius) => Same(*radius).gather(&places.places),
-            PerBody::Each(radius) => radius.gather_places(&places),
+            PerBody::Same(radius) => L::splat(*radius),
+            PerBody::Each(radius) => L::gather(radius, &places.places),
         };
         let arm = feature.clearance(center, radius).arm;
         let impulse = collide::<L, ROUGH>(arm, &mut a, &mut Party::immovable());
@@ -195,18 +195,6 @@ impl<S> Impacts<S> {
                 Vec3::select(impulse.approaching, at_end + (a.velocity - at_contact), at_end);
         }
         write(outcomes, arm, impulse, a, Party::immovable());
-    }
-}
-
-/// A column read at places.
-trait GatherPlaces<T: Real> {
-    fn gather_places<L: Lane<Scalar = T>>(&self, places: &Places) -> L;
-}
-
-impl<T: Real> GatherPlaces<T> for crate::column::Column<T> {
-    #[inline(always)]
-    fn gather_places<L: Lane<Scalar = T>>(&self, places: &Places) -> L {
-        L::gather(self, &places.places)
     }
 }
 
