@@ -1,12 +1,15 @@
 //! Engines: what moves a scene through time.
 
 mod event;
+mod event_driven;
 mod plan;
 mod stepped;
+mod tallies;
 
 use serde::{Deserialize, Serialize};
 
 pub use event::{Event, Partner};
+pub use event_driven::EventDriven;
 pub use plan::{Plan, Turning};
 pub use stepped::Stepped;
 

@@ -145,10 +145,17 @@ pub trait Lane:
     /// [`Real::WHOLE_FROM`] up, where every number is whole.
     #[inline(always)]
     fn nearest_whole(self) -> Self {
+        let is_small = self.abs().lt(Self::splat(Self::Scalar::WHOLE_FROM));
+        Self::select(is_small, self.nearest_small_whole(), self)
+    }
+
+    /// The nearest whole number, ties to even, of a value less than half of
+    /// [`Real::WHOLE_FROM`].
+    #[inline(always)]
+    fn nearest_small_whole(self) -> Self {
         // Adding 1.5·2^(digits−1) leaves no digit after the point.
         let magic = Self::splat(Self::Scalar::ROUNDING_MAGIC);
-        let rounded = (self + magic) - magic;
-        Self::select(self.abs().lt(Self::splat(Self::Scalar::WHOLE_FROM)), rounded, self)
+        (self + magic) - magic
     }
 
     /// The first `WIDTH` values of a column.
@@ -192,6 +199,17 @@ pub trait Lane:
     fn gather(column: &[Self::Scalar], indices: &[u32]) -> Self {
         let indices = &indices[..Self::WIDTH];
         Self::from_fn(|k| column[indices[k] as usize])
+    }
+
+    /// Transposes records of eight reals: lane `k` of result `j` is
+    /// `records[k][j]`.
+    ///
+    /// # Panics
+    /// If there are fewer than `WIDTH` records.
+    #[inline(always)]
+    fn transpose(records: &[&[Self::Scalar; 8]]) -> [Self; 8] {
+        let records = &records[..Self::WIDTH];
+        core::array::from_fn(|j| Self::from_fn(|k| records[k][j]))
     }
 
     /// `column[indices[k]]` becomes lane `k`. Indices that occur twice keep the

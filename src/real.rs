@@ -24,6 +24,10 @@ pub trait Real:
     /// allocates, for its alignment and its padding.
     type Block: Copy + Send + Sync + core::fmt::Debug;
 
+    /// A precision no finer than this one and faster, good enough to tell whom a
+    /// body cannot meet.
+    type Coarse: Real;
+
     /// What the scene file and the summary call this precision.
     const NAME: &'static str;
 
@@ -113,6 +117,7 @@ macro_rules! real {
             type Pack8 = $pack8;
             type Pack16 = $pack16;
             type Block = wide::$block;
+            type Coarse = f32;
 
             const NAME: &'static str = stringify!($real);
             const EPSILON: Self = $real::EPSILON;

@@ -100,6 +100,19 @@ pub enum Feature<T> {
 }
 
 impl<T: Real> Feature<T> {
+    /// The corners of the box that the solid fills; `None` for one without end.
+    #[must_use]
+    pub fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        match self {
+            Self::Cuboid(cuboid) if !cuboid.inside => Some([cuboid.lower, cuboid.upper]),
+            Self::FixedSphere(sphere) if !sphere.inside => {
+                let reach = Vec3::new(sphere.radius, sphere.radius, sphere.radius);
+                Some([sphere.center - reach, sphere.center + reach])
+            }
+            _ => None,
+        }
+    }
+
     /// Where spheres with these centres and radii stand to the feature.
     #[inline(always)]
     pub fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {

@@ -13,9 +13,9 @@ mod record;
 mod resolve;
 mod state;
 mod struck;
-mod tallies;
 
 use super::plan::{Plan, Turning};
+use super::tallies::Tallies;
 use super::{Collisions, EngineError, Event, Execution, Impact};
 use crate::bodies::Bodies;
 use crate::broadphase::{BroadPhase, Candidates};
@@ -35,7 +35,6 @@ use path::Path;
 use record::Record;
 use state::State;
 use struck::Struck;
-use tallies::Tallies;
 
 /// Bodies flown as one piece of work.
 const FLOWN: usize = 1 << 14;

@@ -1,5 +1,7 @@
 //! The lane types: one real, and the packs of `wide`.
 
+use wide::{f32x8, f32x16, f64x4, f64x8};
+
 use super::{Lane, Mask};
 
 impl Mask for bool {
@@ -106,7 +108,7 @@ macro_rules! one_real {
 one_real!(f32, f64);
 
 macro_rules! pack {
-    ($($pack:ident: [$real:ident; $width:literal]),*) => {$(
+    ($($pack:ident: [$real:ident; $width:literal] $(, $transpose:path)?;)*) => {$(
         impl Mask for wide::$pack {
             #[inline(always)]
             fn any(self) -> bool {
@@ -181,15 +183,52 @@ macro_rules! pack {
             fn select(mask: Self, yes: Self, no: Self) -> Self {
                 mask.select(yes, no)
             }
+
+            $(
+                #[inline(always)]
+                fn transpose(records: &[&[$real; 8]]) -> [Self; 8] {
+                    $transpose(records)
+                }
+            )?
         }
     )*};
 }
 
 pack!(
-    f32x4: [f32; 4],
-    f32x8: [f32; 8],
-    f32x16: [f32; 16],
-    f64x2: [f64; 2],
-    f64x4: [f64; 4],
-    f64x8: [f64; 8]
+    f32x4: [f32; 4];
+    f32x8: [f32; 8], eight_of_f32;
+    f32x16: [f32; 16], sixteen_of_f32;
+    f64x2: [f64; 2];
+    f64x4: [f64; 4], four_of_f64;
+    f64x8: [f64; 8], eight_of_f64;
 );
+
+/// Real by real this is 64 loads; by rows it is 8, and shuffles.
+#[inline(always)]
+fn eight_of_f32(records: &[&[f32; 8]]) -> [f32x8; 8] {
+    let records = &records[..8];
+    f32x8::transpose(core::array::from_fn(|k| f32x8::new(*records[k])))
+}
+
+#[inline(always)]
+fn sixteen_of_f32(records: &[&[f32; 8]]) -> [f32x16; 8] {
+    let (first, last) = (eight_of_f32(&records[..8]), eight_of_f32(&records[8..16]));
+    core::array::from_fn(|j| wide::bytemuck::cast([first[j], last[j]]))
+}
+
+#[inline(always)]
+fn four_of_f64(records: &[&[f64; 8]]) -> [f64x4; 8] {
+    let records = &records[..4];
+    let halves: [[f64x4; 4]; 2] = core::array::from_fn(|half| {
+        f64x4::transpose(core::array::from_fn(|k| {
+            f64x4::new(core::array::from_fn(|j| records[k][4 * half + j]))
+        }))
+    });
+    core::array::from_fn(|j| halves[j / 4][j % 4])
+}
+
+#[inline(always)]
+fn eight_of_f64(records: &[&[f64; 8]]) -> [f64x8; 8] {
+    let (first, last) = (four_of_f64(&records[..4]), four_of_f64(&records[4..8]));
+    core::array::from_fn(|j| wide::bytemuck::cast([first[j], last[j]]))
+}

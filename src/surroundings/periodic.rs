@@ -13,6 +13,13 @@ pub trait Space<T: Real>: Copy + Send + Sync {
     /// The shortest difference between two points' images.
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L>;
 
+    /// How many whole boxes a difference spans, to the nearest; fewer than half
+    /// of [`Real::WHOLE_FROM`].
+    fn turns<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L>;
+
+    /// The difference that a number of whole boxes makes.
+    fn shift<L: Lane<Scalar = T>>(self, turns: Vec3<L>) -> Vec3<L>;
+
     /// From a point to itself and to its images in the boxes around.
     fn images(self) -> Vec<Vec3<T>>;
 }
@@ -30,6 +37,16 @@ impl<T: Real> Space<T> for OpenSpace {
     #[inline(always)]
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {
         difference
+    }
+
+    #[inline(always)]
+    fn turns<L: Lane<Scalar = T>>(self, _: Vec3<L>) -> Vec3<L> {
+        Vec3::ZERO
+    }
+
+    #[inline(always)]
+    fn shift<L: Lane<Scalar = T>>(self, _: Vec3<L>) -> Vec3<L> {
+        Vec3::ZERO
     }
 
     fn images(self) -> Vec<Vec3<T>> {
@@ -90,6 +107,23 @@ impl<T: Real> Space<T> for PeriodicBox<T> {
             nearest(difference.y, sides.y),
             nearest(difference.z, sides.z),
         )
+    }
+
+    #[inline(always)]
+    fn turns<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {
+        let turns = |d: L, side: T| (d * L::splat(T::ONE / side)).nearest_small_whole();
+        let sides = self.sides();
+        Vec3::new(
+            turns(difference.x, sides.x),
+            turns(difference.y, sides.y),
+            turns(difference.z, sides.z),
+        )
+    }
+
+    #[inline(always)]
+    fn shift<L: Lane<Scalar = T>>(self, turns: Vec3<L>) -> Vec3<L> {
+        let sides = Vec3::splat(self.sides());
+        Vec3::new(turns.x * sides.x, turns.y * sides.y, turns.z * sides.z)
     }
 
     fn images(self) -> Vec<Vec3<T>> {

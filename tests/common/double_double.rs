@@ -172,6 +172,7 @@ impl Real for DoubleDouble {
     type Pack4 = Self;
     type Pack8 = Self;
     type Pack16 = Self;
+    type Coarse = f64;
     type Block = Self;
 
     const NAME: &'static str = "double-double";

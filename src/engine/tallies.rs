@@ -7,7 +7,7 @@ use crate::vec3::Vec3;
 /// Sums that observations are made of, in the order in which contacts took
 /// effect.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tallies {
+pub(in crate::engine) struct Tallies {
     virial: CompensatedSum,
     impulse: [CompensatedSum; 3],
 }

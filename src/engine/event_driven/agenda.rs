@@ -1,0 +1,186 @@
+//! Agenda: what is ahead of each body, as far as it is known.
+
+use super::crossing::Exit;
+use crate::real::Real;
+
+/// Marks a partner that is a fixed feature, not a body.
+const FIXED: u32 = 1 << 31;
+
+/// What a body may meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PartnerCode(u32);
+
+impl PartnerCode {
+    /// Nothing yet.
+    pub const NONE: Self = Self(u32::MAX);
+
+    /// A body, by its place or by its index.
+    #[inline(always)]
+    pub fn body(number: u32) -> Self {
+        Self(number)
+    }
+
+    /// A fixed feature.
+    #[inline(always)]
+    pub fn feature(number: u32) -> Self {
+        Self(number | FIXED)
+    }
+
+    /// The feature's number, or the body's.
+    #[inline(always)]
+    pub fn decoded(self) -> Result<u32, u32> {
+        if self.0 & FIXED == 0 { Ok(self.0) } else { Err(self.0 & !FIXED) }
+    }
+}
+
+/// A contact that happens unless the partner's motion changes before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Expected<T> {
+    /// When, since the period's start.
+    pub time: T,
+    /// With whom, by place.
+    pub partner: PartnerCode,
+    /// How often the partner's motion had changed when this was found.
+    pub changes: u32,
+}
+
+/// How many contacts a body keeps. With one, every third contact found is
+/// looked for again after its partner has met somebody else; with two, one in
+/// ten or less.
+const KEPT: usize = 2;
+
+/// What is ahead of a body.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Agenda<T> {
+    /// When it leaves its cell.
+    pub leaves_cell: T,
+    /// Up to when every contact that its own motion leads to is among the kept
+    /// ones, or in the agenda of a partner that has changed later.
+    complete_until: T,
+    kept: [Expected<T>; KEPT],
+    len: u16,
+    /// Through which face it does.
+    pub exit: Exit,
+    /// How often its motion has changed in this period.
+    pub changes: u32,
+    /// Its cell's coordinates in the unbounded grid.
+    pub cell: [i32; 3],
+    /// What it met last, a body by its index in the scene.
+    pub last: PartnerCode,
+}
+
+/// What a body does next.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Next<T> {
+    /// It leaves its cell.
+    LeavesCell,
+    /// It meets somebody, if he has not changed since.
+    Meets(Expected<T>),
+    /// What comes after is not known.
+    Searches,
+}
+
+impl<T: Real> Agenda<T> {
+    /// A body of which nothing is known yet.
+    pub fn new(cell: [i32; 3], last: PartnerCode) -> Self {
+        let none = Expected { time: T::ZERO, partner: PartnerCode::NONE, changes: 0 };
+        Self {
+            leaves_cell: T::ZERO,
+            complete_until: T::ZERO,
+            kept: [none; KEPT],
+            len: 0,
+            exit: Exit { axis: 0, up: false },
+            changes: 0,
+            cell,
+            last,
+        }
+    }
+
+    /// Forgets all contacts: those up to `until` are about to be found anew.
+    #[inline(always)]
+    pub fn clear(&mut self, until: T) {
+        self.len = 0;
+        self.complete_until = until;
+    }
+
+    /// Up to when a contact is worth keeping.
+    #[inline(always)]
+    pub fn complete_until(&self) -> T {
+        self.complete_until
+    }
+
+    /// Keeps a contact if it is among the first. `comes_first` orders contacts
+    /// of equal times.
+    #[inline(always)]
+    pub fn keep(&mut self, found: Expected<T>, comes_first: impl Fn(PartnerCode, PartnerCode) -> bool) {
+        if !(found.time < self.complete_until) {
+            return;
+        }
+        let len = self.len as usize;
+        let mut at = len;
+        while at > 0 {
+            let kept = self.kept[at - 1];
+            if kept.partner == found.partner && kept.time == found.time {
+                // Found before, of the same motion or of an older one.
+                self.kept[at - 1] = found;
+                return;
+            }
+            if kept.time < found.time
+                || (kept.time == found.time && comes_first(kept.partner, found.partner))
+            {
+                break;
+            }
+            at -= 1;
+        }
+        if len == KEPT {
+            let dropped = if at == KEPT { found } else { self.kept[KEPT - 1] };
+            self.complete_until = dropped.time;
+            if at == KEPT {
+                return;
+            }
+        } else {
+            self.len += 1;
+        }
+        for k in (at + 1..self.len as usize).rev() {
+            self.kept[k] = self.kept[k - 1];
+        }
+        self.kept[at] = found;
+    }
+
+    /// Drops the first of the kept contacts.
+    #[inline(always)]
+    pub fn drop_first(&mut self) {
+        for k in 1..KEPT {
+            self.kept[k - 1] = self.kept[k];
+        }
+        self.len -= 1;
+    }
+
+    /// The first kept contact.
+    #[inline(always)]
+    pub fn first(&self) -> Option<Expected<T>> {
+        if self.len > 0 { Some(self.kept[0]) } else { None }
+    }
+
+    /// When the body has to be looked at next.
+    #[inline(always)]
+    pub fn next_time(&self) -> T {
+        let contact = if self.len > 0 { self.kept[0].time } else { self.complete_until };
+        if self.leaves_cell < contact { self.leaves_cell } else { contact }
+    }
+
+    /// What the body does at [`next_time`](Agenda::next_time). It leaves a cell
+    /// before it meets anybody at the same time: who is in the next one must be
+    /// known by then.
+    #[inline(always)]
+    pub fn next(&self) -> Next<T> {
+        let contact = if self.len > 0 { self.kept[0].time } else { self.complete_until };
+        if self.leaves_cell <= contact {
+            Next::LeavesCell
+        } else if self.len > 0 {
+            Next::Meets(self.kept[0])
+        } else {
+            Next::Searches
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Calendar: whose turn it is, at a cost that does not grow with the bodies.
+//!
+//! The period is cut into spans of equal length. An entry goes to its span as
+//! it comes, unsorted; a span is sorted when its time has come, and entries
+//! that have been overtaken are thrown out then (a calendar queue, Brown 1988,
+//! without removal).
+
+use core::cmp::Ordering;
+
+use crate::real::Real;
+
+/// A body's turn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Turn<T> {
+    /// Time since the period's start.
+    pub time: T,
+    /// The body's place.
+    pub place: u32,
+}
+
+/// Entries that lie together in memory: few enough to waste little at the end
+/// of a span, many enough that reading a span is no chase of pointers.
+const CHUNK: usize = 7;
+
+const NO_CHUNK: u32 = u32::MAX;
+
+/// The most spans: beyond, each has more entries.
+const MOST_SPANS: usize = 1 << 24;
+
+#[derive(Clone, Copy, Debug)]
+struct Chunk<T> {
+    turns: [Turn<T>; CHUNK],
+    len: u32,
+    /// The chunk before, of the same span or of the free ones.
+    before: u32,
+}
+
+/// The turns of all bodies in a period.
+#[derive(Debug)]
+pub(super) struct Calendar<T> {
+    spans_per_time: T,
+    /// The last chunk of each span.
+    last: Vec<u32>,
+    chunks: Vec<Chunk<T>>,
+    free: u32,
+    /// The span that is being worked off.
+    span: usize,
+    /// Its turns, the last one first.
+    now: Vec<Turn<T>>,
+}
+
+impl<T: Real> Calendar<T> {
+    pub fn new() -> Self {
+        Self {
+            spans_per_time: T::ZERO,
+            last: Vec::new(),
+            chunks: Vec::new(),
+            free: NO_CHUNK,
+            span: 0,
+            now: Vec::new(),
+        }
+    }
+
+    /// An empty calendar for a period of this length, with about `together` of
+    /// its turns in a span if there are as many in a time as were counted.
+    pub fn begin(&mut self, period: T, turns_per_time: f64, together: f64) {
+        let spans = (turns_per_time * period.to_f64() / together) as usize;
+        let spans = spans.clamp(1, MOST_SPANS);
+        self.spans_per_time = T::from_f64(spans as f64) / period;
+        self.last.clear();
+        self.last.resize(spans, NO_CHUNK);
+        self.chunks.clear();
+        self.free = NO_CHUNK;
+        self.span = 0;
+        self.now.clear();
+    }
+
+    /// Enters a turn. `order` is that of places whose turns have equal times.
+    #[inline(always)]
+    pub fn enter(&mut self, turn: Turn<T>, order: impl Fn(u32, u32) -> Ordering) {
+        let span = ((turn.time * self.spans_per_time).whole_part() as usize).min(self.last.len() - 1);
+        if span > self.span {
+            self.append(span, turn);
+            return;
+        }
+        // Among the present ones, which are few.
+        let mut at = self.now.len();
+        while at > 0 && compared(self.now[at - 1], turn, &order) == Ordering::Less {
+            at -= 1;
+        }
+        self.now.insert(at, turn);
+    }
+
+    #[inline(always)]
+    fn append(&mut self, span: usize, turn: Turn<T>) {
+        let mut last = self.last[span];
+        if last == NO_CHUNK || self.chunks[last as usize].len as usize == CHUNK {
+            let before = last;
+            if self.free == NO_CHUNK {
+                last = self.chunks.len() as u32;
+                self.chunks.push(Chunk { turns: [turn; CHUNK], len: 0, before });
+            } else {
+                last = self.free;
+                let chunk = &mut self.chunks[last as usize];
+                self.free = chunk.before;
+                chunk.len = 0;
+                chunk.before = before;
+            }
+            self.last[span] = last;
+        }
+        let chunk = &mut self.chunks[last as usize];
+        chunk.turns[chunk.len as usize % CHUNK] = turn;
+        chunk.len += 1;
+    }
+
+    /// The next turn, left in the calendar. `is_due` says whether a turn is
+    /// still what its body waits for; others are dropped.
+    #[inline(always)]
+    pub fn next(
+        &mut self,
+        is_due: impl Fn(Turn<T>) -> bool,
+        order: impl Fn(u32, u32) -> Ordering,
+    ) -> Option<Turn<T>> {
+        loop {
+            while let Some(&turn) = self.now.last() {
+                if is_due(turn) {
+                    return Some(turn);
+                }
+                self.now.pop();
+            }
+            if !self.open_next(&is_due, &order) {
+                return None;
+            }
+        }
+    }
+
+    /// Takes the present turn off.
+    #[inline(always)]
+    pub fn take(&mut self) {
+        self.now.pop();
+    }
+
+    /// Opens the next span; false after the last.
+    fn open_next(
+        &mut self,
+        is_due: &impl Fn(Turn<T>) -> bool,
+        order: &impl Fn(u32, u32) -> Ordering,
+    ) -> bool {
+        if self.span + 1 >= self.last.len() {
+            return false;
+        }
+        self.span += 1;
+        let mut last = core::mem::replace(&mut self.last[self.span], NO_CHUNK);
+        while last != NO_CHUNK {
+            let chunk = &mut self.chunks[last as usize];
+            let due = chunk.turns[..chunk.len as usize].iter().filter(|turn| is_due(**turn));
+            self.now.extend(due);
+            let before = core::mem::replace(&mut chunk.before, self.free);
+            self.free = last;
+            last = before;
+        }
+        self.now.sort_unstable_by(|a, b| compared(*b, *a, order));
+        true
+    }
+
+    /// The bytes that the calendar holds.
+    pub fn bytes(&self) -> usize {
+        self.last.capacity() * size_of::<u32>()
+            + self.chunks.capacity() * size_of::<Chunk<T>>()
+            + self.now.capacity() * size_of::<Turn<T>>()
+    }
+}
+
+#[inline(always)]
+fn compared<T: Real>(a: Turn<T>, b: Turn<T>, order: &impl Fn(u32, u32) -> Ordering) -> Ordering {
+    let times = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
+    times.then_with(|| order(a.place, b.place))
+}

@@ -1,0 +1,145 @@
+//! Coarse: flights in a coarser precision, to tell quickly whom a body cannot
+//! meet.
+//!
+//! Of a body's two dozen neighbours it can meet two or three. The others are
+//! passed over in the coarse precision, twice as many at once, with radii that
+//! are greater by more than all its rounding errors: whoever can be met is
+//! never passed over, and who remains is tried in the full precision, so that
+//! no bit of any contact time depends on this.
+
+use super::flight::{Flight, Record};
+use super::meeting::meeting;
+use crate::lane::{Lane, Mask};
+use crate::motion::integrator::FlightStep;
+use crate::real::Real;
+use crate::surroundings::{PeriodicBox, Space};
+use crate::vec3::Vec3;
+
+/// The bodies in coarse precision.
+#[derive(Debug)]
+pub(super) struct Coarse<C: Real> {
+    /// Whether it is fine enough for the scene.
+    pub is_useful: bool,
+    records: Vec<Record<C>>,
+    gravity: Vec3<C>,
+    pub periodic: Option<PeriodicBox<C>>,
+    /// What is added to each radius, length.
+    margin: C,
+    /// Up to this `x·V` two bodies may approach each other.
+    slack: C,
+}
+
+/// The scales that the rounding errors are measured by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales {
+    /// Greatest coordinate, length.
+    pub extent: f64,
+    /// Distance within which neighbours are, length.
+    pub neighbourhood: f64,
+    /// Least sum of two radii, length.
+    pub reach: f64,
+    /// Greatest speed, length per time.
+    pub speed: f64,
+    /// Length of a period, time.
+    pub period: f64,
+}
+
+fn coarse<T: Real, C: Real>(value: T) -> C {
+    C::from_f64(value.to_f64())
+}
+
+fn coarse_vector<T: Real, C: Real>(vector: Vec3<T>) -> Vec3<C> {
+    Vec3::new(coarse(vector.x), coarse(vector.y), coarse(vector.z))
+}
+
+impl<C: Real> Coarse<C> {
+    pub fn new<T: Real>(gravity: Vec3<T>, periodic: Option<PeriodicBox<T>>) -> Self {
+        Self {
+            is_useful: false,
+            records: Vec::new(),
+            gravity: coarse_vector(gravity),
+            periodic: periodic.map(|space| PeriodicBox {
+                lower: coarse_vector(space.lower),
+                upper: coarse_vector(space.upper),
+            }),
+            margin: C::ZERO,
+            slack: C::ZERO,
+        }
+    }
+
+    /// Begins a period: chooses the margins, and whether any are small enough.
+    pub fn begin<T: Real>(&mut self, records: &[Record<T>], scales: &Scales) {
+        let Scales { extent, neighbourhood, reach, speed, period } = *scales;
+        let epsilon = C::EPSILON.to_f64();
+        // Positions, the way of a period and the products of the discriminant.
+        let ways = 16.0 * epsilon * (extent + speed * period);
+        let products = 16.0 * epsilon * neighbourhood * neighbourhood / reach;
+        let margin = ways + products;
+        self.is_useful = size_of::<C>() < size_of::<T>() && margin < reach / 32.0;
+        self.margin = C::from_f64(margin);
+        self.slack = C::from_f64(4.0 * speed * margin);
+        let useful = if self.is_useful { records } else { &[] };
+        self.records = useful.iter().map(|record| self.record(&record.flight())).collect();
+    }
+
+    fn record<T: Real>(&self, flight: &Flight<T>) -> Record<C> {
+        Record::new(Flight {
+            position: coarse_vector(flight.position),
+            velocity: coarse_vector(flight.velocity),
+            since: coarse(flight.since),
+            radius: coarse::<T, C>(flight.radius) + self.margin,
+        })
+    }
+
+    /// Puts the new flight of a body down.
+    #[inline(always)]
+    pub fn put<T: Real>(&mut self, place: usize, flight: &Flight<T>) {
+        if self.is_useful {
+            self.records[place] = self.record(flight);
+        }
+    }
+
+    /// Keeps of the bodies found those that the body at a place might meet, and
+    /// returns how many. `found` holds whole packs.
+    #[inline(always)]
+    pub fn screen<L, F, S, const STARTS: bool>(
+        &self,
+        place: u32,
+        found: &mut [u32],
+        now: C,
+        space: S,
+        further: &[Vec3<C>],
+    ) -> usize
+    where
+        L: Lane<Scalar = C>,
+        F: FlightStep,
+        S: Space<C>,
+    {
+        let flight = Flight::<L>::splat(&self.records[place as usize].flight());
+        let (gravity, now) = (Vec3::<L>::splat(self.gravity), L::splat(now));
+        let slack = L::splat(self.slack);
+        let mut kept = 0;
+        for start in (0..found.len()).step_by(L::WIDTH) {
+            let others = Flight::<L>::gather(&self.records, &found[start..start + L::WIDTH]);
+            let mut hits = 0;
+            for further in further {
+                let further = Vec3::<L>::splat(*further);
+                let met =
+                    meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, now);
+                hits |= met.may_meet(slack).bits();
+            }
+            while hits != 0 {
+                let k = hits.trailing_zeros() as usize;
+                hits &= hits - 1;
+                found[kept] = found[start + k];
+                kept += 1;
+            }
+        }
+        kept
+    }
+
+    /// The bytes that the records hold.
+    pub fn bytes(&self) -> usize {
+        self.records.capacity() * size_of::<Record<C>>()
+    }
+}

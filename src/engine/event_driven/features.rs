@@ -1,0 +1,63 @@
+//! Features: when a body meets what is fixed.
+
+use super::EventDriven;
+use super::agenda::{Expected, PartnerCode};
+use super::near::Image;
+use super::search::rank;
+use crate::real::Real;
+use crate::surroundings::Space;
+
+impl<T: Real> EventDriven<T> {
+    /// Looks for contacts of the body at a place with all features near it.
+    pub(super) fn search_features(&mut self, place: u32, now: T) {
+        for k in 0..self.near.everywhere().len() {
+            self.expect_feature(place, self.near.everywhere()[k], now);
+        }
+        self.search_features_of_cell(place, now);
+    }
+
+    /// Looks for contacts of the body at a place with the features near its
+    /// cell.
+    pub(super) fn search_features_of_cell(&mut self, place: u32, now: T) {
+        let cell = self.cells.number_of(self.agendas[place as usize].cell);
+        for k in 0..self.near.of(cell).len() {
+            self.expect_feature(place, self.near.of(cell)[k], now);
+        }
+    }
+
+    fn expect_feature(&mut self, place: u32, Image { feature, image }: Image, now: T) {
+        let _ = now;
+        let at = place as usize;
+        let flight = self.records[at].flight();
+        let partner = PartnerCode::feature(feature);
+        let mut center = flight.position - self.images[image as usize];
+        if let Some(space) = self.periodic {
+            let turns = self.cells.turns(self.agendas[at].cell);
+            center = center - space.shift(turns);
+        }
+        let feature = &self.features[feature as usize];
+        // In a periodic box it has left one image only.
+        let is_leaving = self.agendas[at].last == partner
+            && (self.periodic.is_none() || self.has_just_left(feature, center, flight.radius));
+        let acceleration = self.plan.has_field.then_some(self.gravity);
+        let wait =
+            feature.contact_time(center, flight.velocity, acceleration, flight.radius, is_leaving);
+        if let Some(wait) = wait {
+            let found = Expected { time: flight.since + wait, partner, changes: 0 };
+            let index = &self.index;
+            let comes_first = |a, b| rank(index, place, a) < rank(index, place, b);
+            self.agendas[at].keep(found, comes_first);
+        }
+    }
+
+    /// Whether a sphere that comes from a contact with some image of a feature
+    /// comes from this one.
+    fn has_just_left(
+        &self,
+        feature: &crate::surroundings::Feature<T>,
+        center: crate::vec3::Vec3<T>,
+        radius: T,
+    ) -> bool {
+        feature.clearance(center, radius).gap.abs() < self.spacing * T::ratio(1, 1024)
+    }
+}

@@ -1,0 +1,121 @@
+//! Meeting: when two bodies in flight come into contact.
+
+use super::flight::Flight;
+use crate::lane::{Lane, Mask};
+use crate::motion::integrator::FlightStep;
+use crate::real::Real;
+use crate::surroundings::Space;
+use crate::vec3::Vec3;
+
+/// When two bodies come into contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting<L: Lane> {
+    pub meets: L::Mask,
+    /// From the start of the later flight on.
+    from: L,
+    approach: L,
+    reach_squared: L,
+    excess: L,
+    discriminant: L,
+}
+
+/// Whether two bodies in flight meet, and when.
+///
+/// A function of the two flights and the pair's image alone: the same bits at
+/// whatever time it is worked out, and for `a` and `b` exchanged. `now` only
+/// chooses the image: the nearest one at that time, moved on by `further`
+/// whole boxes. `STARTS` says that the flight of `a` starts now, which takes a
+/// fifth of the work off.
+#[inline(always)]
+pub(super) fn meeting<L: Lane, F: FlightStep, S: Space<L::Scalar>, const STARTS: bool>(
+    a: &Flight<L>,
+    b: &Flight<L>,
+    gravity: Vec3<L>,
+    space: S,
+    further: Vec3<L>,
+    now: L,
+) -> Meeting<L> {
+    let from = if STARTS { now } else { a.since.greater(b.since) };
+    let (position_a, velocity_a) =
+        if STARTS { (a.position, a.velocity) } else { a.at::<F>(from, gravity) };
+    let (position_b, velocity_b) = b.at::<F>(from, gravity);
+    let relative = velocity_a - velocity_b;
+    let offset = position_a - position_b;
+    let nearby = if STARTS { offset } else { offset + relative * (now - from) };
+    let offset = offset - space.shift(space.turns(nearby) + further);
+
+    let reach = a.radius + b.radius;
+    let approach = offset.dot(relative);
+    let reach_squared = reach * reach;
+    let discriminant =
+        relative.length_squared() * reach_squared - offset.cross(relative).length_squared();
+    Meeting {
+        meets: approach.lt(L::ZERO) & discriminant.gt(L::ZERO),
+        from,
+        approach,
+        reach_squared,
+        excess: offset.length_squared() - reach_squared,
+        discriminant,
+    }
+}
+
+impl<L: Lane> Meeting<L> {
+    /// Whether the two would meet if they approached a little faster: the test
+    /// of a precision whose errors are below the slack.
+    #[inline(always)]
+    pub fn may_meet(&self, slack: L) -> L::Mask {
+        self.approach.lt(slack) & self.discriminant.gt(L::ZERO)
+    }
+
+    /// Whether the two are in contact at the start of the later flight, or all
+    /// but in contact.
+    #[inline(always)]
+    pub fn is_touching(&self) -> L::Mask {
+        self.excess.lt(self.reach_squared * L::ratio(1, 1024))
+    }
+}
+
+/// How many meetings are worked out before any is looked at.
+pub(super) const TOGETHER: usize = 64;
+
+/// The meetings of a body with up to [`TOGETHER`] others. Whoever is not met is
+/// passed over without a branch, which would be mispredicted once in two packs.
+#[derive(Clone, Debug)]
+pub(super) struct Meetings<T> {
+    met: u64,
+    from: [T; TOGETHER],
+    approach: [T; TOGETHER],
+    excess: [T; TOGETHER],
+    discriminant: [T; TOGETHER],
+}
+
+impl<T: Real> Meetings<T> {
+    #[inline(always)]
+    pub fn new() -> Self {
+        let none = [T::ZERO; TOGETHER];
+        Self { met: 0, from: none, approach: none, excess: none, discriminant: none }
+    }
+
+    /// Puts a pack of meetings down as those from number `first` on.
+    #[inline(always)]
+    pub fn put<L: Lane<Scalar = T>>(&mut self, first: usize, meeting: &Meeting<L>) {
+        meeting.from.store(&mut self.from[first..]);
+        meeting.approach.store(&mut self.approach[first..]);
+        meeting.excess.store(&mut self.excess[first..]);
+        meeting.discriminant.store(&mut self.discriminant[first..]);
+        self.met |= u64::from(meeting.meets.bits()) << first;
+    }
+
+    /// Takes the number of one who is met, and the time of contact.
+    #[inline(always)]
+    pub fn take(&mut self) -> Option<(usize, T)> {
+        if self.met == 0 {
+            return None;
+        }
+        let k = self.met.trailing_zeros() as usize % TOGETHER;
+        self.met &= self.met - 1;
+        let excess = self.excess[k].greater(T::ZERO);
+        let wait = excess / (Lane::sqrt(self.discriminant[k]) - self.approach[k]);
+        Some((k, self.from[k] + wait))
+    }
+}

@@ -1,0 +1,161 @@
+//! Period: a stretch of time with an origin of its own.
+//!
+//! Times are counted from the period's start, so that a long run has times as
+//! exact as a short one. Where a period begins, every flight starts anew, bodies
+//! are sorted by cell and all that is ahead is looked for again.
+
+use super::EventDriven;
+use super::agenda::{Agenda, PartnerCode};
+use super::coarse::Scales;
+use super::flight::{Flight, Record};
+use crate::engine::plan::Turning;
+use crate::motion::rotation::turned;
+use crate::real::Real;
+use crate::surroundings::Space;
+
+/// How far bodies fly in a period, in mean distances, at the mean speed.
+const FLIGHT: f64 = 8.0;
+
+/// How much faster than the mean the fastest body may be before it is the one
+/// that a period is measured by.
+const FAST: f64 = 8.0;
+
+/// Turns for which a span of the calendar is made.
+const TOGETHER: f64 = 12.0;
+
+/// Turns for each body in the first period, before any were counted.
+const TURNS: f64 = 64.0;
+
+impl<T: Real> EventDriven<T> {
+    /// Puts the bodies of the scene in their places, and begins the first
+    /// period.
+    pub(super) fn settle(&mut self) {
+        let len = self.bodies.len();
+        let bodies = &self.bodies;
+        let flight = |index: usize| Flight {
+            position: bodies.position_of(index),
+            velocity: bodies.velocity_of(index),
+            since: T::ZERO,
+            radius: bodies.radius.of(index),
+        };
+        self.records = (0..len).map(|index| Record::new(flight(index))).collect();
+        self.spins = (0..len).map(|index| bodies.spin_of(index)).collect();
+        if self.plan.turning == Turning::FromLastContact {
+            self.turned = (0..len).map(|index| (bodies.orientation_of(index), T::ZERO)).collect();
+        }
+        self.agendas = vec![Agenda::new([0; 3], PartnerCode::NONE); len];
+        self.begin_period(T::ZERO);
+    }
+
+    /// Ends the present period at a time of it, and begins the next one.
+    pub(super) fn begin_period(&mut self, end: T) {
+        self.restart_flights(end);
+        self.origin.add(end.to_f64());
+        self.is_too_fast = false;
+        self.last_time = T::ZERO;
+        self.choose_period();
+        let turns = if self.turns == 0 || end == T::ZERO {
+            TURNS * self.records.len() as f64 / self.period.to_f64()
+        } else {
+            self.turns as f64 / end.to_f64()
+        };
+        self.calendar.begin(self.period, turns, TOGETHER);
+        self.turns = 0;
+        self.sort();
+        self.coarse.begin(&self.records, &self.scales());
+        for place in 0..self.records.len() as u32 {
+            self.plan_crossing(place, T::ZERO);
+            self.search(place, T::ZERO);
+            self.enter(place);
+        }
+    }
+
+    /// Brings every body to the period's end and starts its flight anew.
+    fn restart_flights(&mut self, end: T) {
+        for place in 0..self.records.len() {
+            let (position, velocity) = self.state_of(place, end);
+            let position = self.periodic.map_or(position, |space| space.wrap(position));
+            let radius = self.records[place].flight().radius;
+            let flight = Flight { position, velocity, since: T::ZERO, radius };
+            self.records[place] = Record::new(flight);
+            if let Some((orientation, since)) = self.turned.get_mut(place) {
+                *orientation = turned(*orientation, self.spins[place], end - *since);
+                *since = T::ZERO;
+            }
+        }
+    }
+
+    /// The power of two nearest below the time that bodies take for a few mean
+    /// distances: multiples of it are added up without rounding.
+    fn choose_period(&mut self) {
+        let len = self.records.len();
+        let mut squares = vec![0.0; len];
+        for (record, &index) in self.records.iter().zip(&self.index) {
+            squares[index as usize] = record.flight().velocity.length_squared().to_f64();
+        }
+        // In the scene's order: the sum must not depend on places.
+        let mean = squares.iter().sum::<f64>() / len as f64;
+        let most = squares.iter().fold(0.0, |most: f64, &square| most.max(square));
+        let spacing = self.spacing.to_f64();
+        let fallen = self.gravity.length().to_f64() * spacing;
+        let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
+        let flight = (FLIGHT * spacing / speed).clamp(1e-25, 1e25);
+        self.period = T::from_f64(flight.log2().floor().exp2());
+        let limit = 2.0 * FAST * speed;
+        self.too_fast = T::from_f64((limit * limit).max(1e-30));
+    }
+
+    /// What the errors of the coarse precision are measured by.
+    fn scales(&self) -> Scales {
+        let greatest = |most: f64, value: T| most.max(value.to_f64().abs());
+        let extent = self.records.iter().fold(0.0, |most, record| {
+            record.flight().position.to_array().into_iter().fold(most, greatest)
+        });
+        let least = self.records.iter().fold(f64::INFINITY, |least: f64, record| {
+            least.min(record.flight().radius.to_f64())
+        });
+        let fallen = self.gravity.length().to_f64() * self.period.to_f64();
+        Scales {
+            extent,
+            neighbourhood: self.cells.neighbourhood(),
+            reach: 2.0 * least,
+            speed: self.too_fast.to_f64().sqrt() + fallen,
+            period: self.period.to_f64(),
+        }
+    }
+
+    /// Sorts the bodies by cell: neighbours in space become neighbours in
+    /// memory.
+    fn sort(&mut self) {
+        let cells = &mut self.cells;
+        cells.clear();
+        let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(self.records.len());
+        for (place, record) in self.records.iter().enumerate() {
+            let cell = cells.cell_of(record.flight().position);
+            order.push((cells.number_of(cell), self.index[place], place as u32));
+        }
+        order.sort_unstable();
+        let records = &self.records;
+        let from = |place: &(u32, u32, u32)| place.2 as usize;
+        self.records = order.iter().map(|place| records[from(place)]).collect();
+        self.spins = order.iter().map(|place| self.spins[from(place)]).collect();
+        self.index = order.iter().map(|place| place.1).collect();
+        if !self.turned.is_empty() {
+            self.turned = order.iter().map(|place| self.turned[from(place)]).collect();
+        }
+        let agendas = &self.agendas;
+        self.agendas = order
+            .iter()
+            .zip(&self.records)
+            .map(|(place, record)| {
+                Agenda::new(cells.cell_of(record.flight().position), agendas[from(place)].last)
+            })
+            .collect();
+        if self.plan.has_pairs {
+            for place in 0..self.records.len() {
+                self.cells.insert(self.agendas[place].cell, place as u32);
+            }
+            self.make_room();
+        }
+    }
+}
