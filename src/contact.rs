@@ -1,9 +1,13 @@
-//! Contact: what two surfaces do to each other when they meet.
+//! Contact: when two surfaces meet, and what they do to each other.
 
+mod approach;
+mod fall;
 mod impulse;
 mod surface;
 mod time;
 
+pub(crate) use approach::{Approach, greatest_component};
+pub(crate) use fall::{Start, fall_of_height};
 pub use impulse::{Impulse, Party, collide};
 pub use surface::Surface;
-pub use time::{PastContact, past_contact};
+pub use time::{ContactTime, PastContact, contact_time, past_contact};

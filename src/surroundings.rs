@@ -3,11 +3,13 @@
 //! A [`Shape`] is one entry of a scene. For the kernels it falls apart into
 //! [`Feature`]s, each of which a sphere can touch in one point at a time: a
 //! container into its six faces, every other shape into itself. A feature knows
-//! one thing, its [`Clearance`] from a sphere, in one function over lanes; a new
-//! shape is a new file with that function.
+//! two things: its [`Clearance`] from a sphere, in one function over lanes, and
+//! the time at which a sphere in free flight comes to it. A new shape is a new
+//! file with these two functions.
 
 mod cuboid;
 mod fixed_sphere;
+mod free_flight;
 mod periodic;
 mod plane;
 
@@ -15,6 +17,8 @@ pub use cuboid::Cuboid;
 pub use fixed_sphere::FixedSphere;
 pub use periodic::{OpenSpace, PeriodicBox, Space};
 pub use plane::Plane;
+
+use free_flight::FreeFlight;
 
 use crate::lane::Lane;
 use crate::real::Real;
@@ -120,6 +124,54 @@ impl<T: Real> Feature<T> {
             Self::Plane(plane) => plane.clearance(center, radius),
             Self::Cuboid(cuboid) => cuboid.clearance(center, radius),
             Self::FixedSphere(sphere) => sphere.clearance(center, radius),
+        }
+    }
+    /// Time from now until a sphere in free flight collides with the feature,
+    /// not negative; None if it never does.
+    ///
+    /// The flight is `c(t) = c + v t + a t²/2`, with `center` and `radius` in
+    /// length, `velocity` in length per time and `acceleration` in length per
+    /// time²; None is straight flight. The time is that at which the gap falls
+    /// through zero: never one at which the sphere comes out again, nor a graze
+    /// without depth.
+    ///
+    /// What overlaps the feature, by rounding, counts as touching it: it
+    /// collides now, at time 0, if it approaches, and later, when it comes back
+    /// to where it is, if it does not. `is_leaving` tells that the sphere has
+    /// just bounced off this feature: it does not approach then, whatever
+    /// rounding says. One that rests on the feature under a force collides now.
+    ///
+    /// Time and squares of time, velocity and length must be within the
+    /// precision's range.
+    ///
+    /// ```
+    /// use carom::surroundings::{Feature, Plane};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let floor = Feature::Plane(Plane::new([0.0; 3], [0.0, 0.0, 1.0]));
+    /// let center = Vec3::new(0.0, 0.0, 6.0);
+    /// let (rest, gravity) = (Vec3::ZERO, Some(Vec3::new(0.0, 0.0, -10.0)));
+    /// assert_eq!(floor.contact_time(center, rest, gravity, 1.0, false), Some(1.0));
+    /// assert_eq!(floor.contact_time(center, rest, None, 1.0, false), None);
+    ///
+    /// // Just bounced, and up again with velocity 10.
+    /// let (center, up) = (Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, 0.0, 10.0));
+    /// assert_eq!(floor.contact_time(center, up, gravity, 1.0, true), Some(2.0));
+    /// ```
+    #[must_use]
+    pub fn contact_time(
+        &self,
+        center: Vec3<T>,
+        velocity: Vec3<T>,
+        acceleration: Option<Vec3<T>>,
+        radius: T,
+        is_leaving: bool,
+    ) -> Option<T> {
+        let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
+        match self {
+            Self::Plane(plane) => plane.contact_time(&flight),
+            Self::Cuboid(cuboid) => cuboid.contact_time(&flight),
+            Self::FixedSphere(sphere) => sphere.contact_time(&flight),
         }
     }
 }

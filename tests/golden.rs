@@ -14,7 +14,7 @@
 
 mod common;
 
-use carom::contact::{Party, collide};
+use carom::contact::{Party, collide, contact_time};
 use carom::engine::{Impact, Stepped};
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
@@ -22,7 +22,7 @@ use carom::motion::turning::turn;
 use carom::observe::state_hash;
 use carom::real::Real;
 use carom::scene::SceneFile;
-use carom::surroundings::OpenSpace;
+use carom::surroundings::{Cuboid, Feature, FixedSphere, OpenSpace, Plane};
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
 use common::numbers::{Random, hash};
@@ -45,6 +45,8 @@ const GOLDEN: &[Entry] = &[
     ("smooth impulse f64", impulses::<f64, false>, 0x2890_999d_1a32_8784),
     ("rough impulse f32", impulses::<f32, true>, 0x661a_40cf_da21_d0dd),
     ("rough impulse f64", impulses::<f64, true>, 0x2bed_9b8d_179f_2d94),
+    ("contact times f32", contact_times::<f32>, 0xfa09_3755_e12f_64b6),
+    ("contact times f64", contact_times::<f64>, 0xceb3_c73c_afeb_412b),
     (
         "rough gas, end of step f32",
         || engine::<f32>("rough-gas", Impact::EndOfStep),
@@ -127,6 +129,32 @@ fn turning<T: Real>() -> u64 {
         );
     }
     hash(rows.into_iter().flatten())
+}
+
+/// Of two spheres, and of one with each kind of feature, with and without a
+/// field.
+fn contact_times<T: Real>() -> u64 {
+    let mut random = Random(6);
+    let radius = T::ratio(1, 4);
+    let features = [
+        Feature::Plane(Plane::new([T::ZERO; 3], [T::ONE, T::whole(2), T::whole(-2)])),
+        Feature::Cuboid(Cuboid::solid([T::ratio(-1, 2); 3], [radius, T::ratio(1, 3), radius])),
+        Feature::FixedSphere(FixedSphere::solid([T::ZERO; 3], T::ratio(1, 3))),
+        Feature::FixedSphere(FixedSphere::container([T::ZERO; 3], T::whole(3))),
+    ];
+    hash((0..COUNT).flat_map(|_| {
+        let (center, velocity): (Vec3<T>, Vec3<T>) = (random.vector(), random.vector());
+        let (center, field) = (center * T::whole(2), random.vector());
+        let pair = contact_time(center, velocity, radius);
+        let mut times = vec![if pair.meets { pair.time } else { -T::ONE }];
+        for feature in features {
+            for field in [None, Some(field)] {
+                let time = feature.contact_time(center, velocity, field, radius, false);
+                times.push(time.unwrap_or(-T::ONE));
+            }
+        }
+        times
+    }))
 }
 
 fn flights<T: Real>() -> u64 {

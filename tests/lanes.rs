@@ -3,6 +3,7 @@
 
 mod common;
 
+use carom::contact::{contact_time, past_contact};
 use carom::lane::{Lane, Mask, Twin};
 use carom::mat3::Mat3;
 use carom::motion::Integrator;
@@ -89,6 +90,17 @@ formulas! {
     }
 }
 
+formulas! {
+    ContactAhead(x, y, z, u, v, w, reach) -> 2 {
+        let contact = contact_time([x, y, z].into(), [u, v, w].into(), reach);
+        [truth(contact.meets), contact.time]
+    }
+    ContactBehind(x, y, z, u, v, w, reach) -> 2 {
+        let contact = past_contact([x, y, z].into(), [u, v, w].into(), reach);
+        [truth(contact.met), contact.ago]
+    }
+}
+
 /// Some thousand inputs: all pairs of extremes for the first two numbers, then
 /// mixtures of tame numbers, extremes and arbitrary bits.
 fn inputs<T: Bits, const I: usize>() -> Vec<[T; I]> {
@@ -171,6 +183,12 @@ fn flight_has_the_same_bits() {
     holds_for_all::<VelocityFirst, 10, 6>();
     holds_for_all::<PositionFirst, 10, 6>();
     holds_for_all::<Parabola, 10, 6>();
+}
+
+#[test]
+fn contact_times_have_the_same_bits() {
+    holds_for_all::<ContactAhead, 7, 2>();
+    holds_for_all::<ContactBehind, 7, 2>();
 }
 
 #[test]

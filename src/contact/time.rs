@@ -12,25 +12,87 @@ pub struct PastContact<L: Lane> {
     pub ago: L,
 }
 
+/// In how much time two spheres come into contact, on straight relative paths.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactTime<L: Lane> {
+    /// Whether the spheres approach each other and will touch.
+    pub meets: L::Mask,
+    /// Time until the surfaces touch, not negative; without meaning where they
+    /// never do.
+    pub time: L,
+}
+
+/// The terms of `|x + Vt|² = s²`, which both directions of time share.
+struct Encounter<L> {
+    speed_squared: L,
+    /// `x·V`.
+    moving_apart: L,
+    /// `s² − x·x`.
+    overlap: L,
+    /// By the vector product, `D = V² s² − |x × V|²`:
+    /// `(x·V)² − V²(x·x − s²)` loses half the digits from afar.
+    discriminant: L,
+}
+
+impl<L: Lane> Encounter<L> {
+    #[inline(always)]
+    fn new(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Self {
+        let speed_squared = relative.length_squared();
+        let reach_squared = reach * reach;
+        Self {
+            speed_squared,
+            moving_apart: offset.dot(relative),
+            overlap: reach_squared - offset.length_squared(),
+            discriminant: speed_squared * reach_squared - offset.cross(relative).length_squared(),
+        }
+    }
+}
+
 /// When two spheres at `offset` from each other, moving with `relative`
 /// velocity, came into contact; `reach` is the sum of their radii.
 ///
 /// The greater root of `|x − Vτ|² = s²`, each sign of `x·V` in the form that
-/// does not cancel, with the discriminant by the vector product,
-/// `D = V² s² − |x × V|²`: `b² − V²(x² − s²)` loses half the digits from afar.
+/// does not cancel.
 #[inline(always)]
 pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> PastContact<L> {
-    let speed_squared = relative.length_squared();
-    let moving_apart = offset.dot(relative);
-    let reach_squared = reach * reach;
-    let overlap = reach_squared - offset.length_squared();
-    let discriminant = speed_squared * reach_squared - offset.cross(relative).length_squared();
+    let Encounter { speed_squared, moving_apart, overlap, discriminant } =
+        Encounter::new(offset, relative, reach);
     let met = discriminant.gt(L::ZERO) & speed_squared.gt(L::ZERO);
     let root = L::select(met, discriminant, L::ZERO).sqrt();
     let is_apart = moving_apart.gt(L::ZERO);
     let numerator = L::select(is_apart, moving_apart + root, overlap);
     let denominator = L::select(is_apart, speed_squared, root - moving_apart);
     PastContact { met: met & denominator.gt(L::ZERO), ago: numerator / denominator }
+}
+
+/// When two spheres at `offset` from each other, moving with `relative`
+/// velocity, will come into contact; `reach` is the sum of their radii.
+///
+/// The lesser root of `|x + Vt|² = s²` for approaching spheres, `x·V < 0`:
+/// `t = (x·x − s²)/(√D − x·V)`. Spheres that overlap and approach touch now,
+/// `t = 0`; spheres that do not approach never meet, nor do those that graze
+/// without depth, `D = 0`. Two spheres in one uniform field move straight
+/// relative to each other.
+///
+/// ```
+/// use carom::contact::contact_time;
+/// use carom::vec3::Vec3;
+///
+/// // Five apart, the radii together one, closing at two per unit of time.
+/// let contact = contact_time(Vec3::new(5.0, 0.0, 0.0), Vec3::new(-2.0, 0.0, 0.0), 1.0_f64);
+/// assert!(contact.meets);
+/// assert_eq!(contact.time, 2.0);
+/// ```
+#[inline(always)]
+pub fn contact_time<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> ContactTime<L> {
+    let Encounter { moving_apart, overlap, discriminant, .. } =
+        Encounter::new(offset, relative, reach);
+    let is_deep = discriminant.gt(L::ZERO);
+    // In contact and approaching, rounding alone can take D to 0.
+    let meets = moving_apart.lt(L::ZERO) & (is_deep | overlap.ge(L::ZERO));
+    let root = L::select(is_deep, discriminant, L::ZERO).sqrt();
+    let gap = (-overlap).greater(L::ZERO);
+    ContactTime { meets, time: gap / (root - moving_apart) }
 }
 
 #[cfg(test)]
@@ -50,5 +112,27 @@ mod tests {
         let aside = Vec3::new(0.0, 1.5, 0.0);
         assert!(!past_contact(aside, velocity, 1.0_f64).met);
         assert!(!past_contact(Vec3::new(0.5, 0.0, 0.0), Vec3::ZERO, 1.0_f64).met.any());
+    }
+
+    #[test]
+    fn finds_the_entry_ahead() {
+        let velocity = Vec3::new(2.0, 0.0, 0.0);
+        for (x, time) in [(-2.0, 0.5), (-1.0, 0.0), (-0.5, 0.0)] {
+            let contact = contact_time(Vec3::new(x, 0.0, 0.0), velocity, 1.0_f64);
+            assert!(contact.meets);
+            assert_eq!(contact.time.to_bits(), f64::to_bits(time), "at {x}");
+        }
+        for never in [Vec3::new(0.5, 0.0, 0.0), Vec3::new(-3.0, 1.0, 0.0), Vec3::ZERO] {
+            assert!(!contact_time(never, velocity, 1.0_f64).meets);
+        }
+        assert!(!contact_time(Vec3::new(0.5, 0.0, 0.0), Vec3::ZERO, 1.0_f64).meets);
+    }
+
+    #[test]
+    fn keeps_the_digits_from_afar() {
+        // b² − ac would be off by 9e-5 here (f32).
+        let contact = contact_time(Vec3::new(1e4_f32, 0.6, 0.0), Vec3::new(-1.0, 0.0, 0.0), 1.0);
+        assert!(contact.meets);
+        assert!((contact.time - 9999.2).abs() <= 9999.2 * f32::EPSILON);
     }
 }

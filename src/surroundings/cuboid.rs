@@ -1,5 +1,10 @@
 //! Cuboid: a solid box with its edges and corners, or the hollow in one.
 
+mod part;
+
+use part::Part;
+
+use super::free_flight::FreeFlight;
 use super::{Clearance, Plane};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
@@ -87,5 +92,35 @@ impl<T: Real> Cuboid<T> {
             gap: L::select(is_outside, away.gap, -(depth + radius)),
             arm: Vec3::select(is_outside, away.arm, normal * radius),
         }
+    }
+
+    /// When a sphere collides with the solid box: the earliest contact with one
+    /// of its faces, edges and corners.
+    pub(super) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+        if flight.acceleration.is_none() && self.is_left(flight) {
+            // A straight path never comes back to what is convex.
+            return None;
+        }
+        let faces = Part::faces(self, flight);
+        if faces.iter().any(|face| face.is_outside()) {
+            // Most flights end here: past the box or on a face.
+            let entries = faces.iter().filter_map(|face| face.entry());
+            let first = entries.reduce(|a, b| if b.time < a.time { b } else { a })?;
+            if first.is_contact {
+                return Some(first.time);
+            }
+        }
+        Part::all(self, flight).filter_map(|part| part.contact_time()).reduce(T::lesser)
+    }
+
+    /// Whether a sphere has just bounced off, and is still there.
+    fn is_left(&self, flight: &FreeFlight<T>) -> bool {
+        let gap = self.clearance(flight.center, flight.radius).gap;
+        flight.is_leaving && gap <= self.slack(flight)
+    }
+
+    /// As [`FreeFlight::slack`], for all of the box.
+    fn slack(&self, flight: &FreeFlight<T>) -> T {
+        flight.slack(self.lower).greater(flight.slack(self.upper))
     }
 }

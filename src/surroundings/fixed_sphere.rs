@@ -1,6 +1,8 @@
 //! Fixed sphere: a solid ball, or the hollow in one.
 
 use super::Clearance;
+use super::free_flight::FreeFlight;
+use crate::contact::{Approach, Start};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -47,5 +49,21 @@ impl<T: Real> FixedSphere<T> {
             let reach = fixed_radius + radius;
             Clearance { gap: distance - reach, arm: offset * (radius / reach) }
         }
+    }
+
+    /// When a sphere collides with the fixed one: for centres at the sum of the
+    /// radii, inside at their difference.
+    pub(super) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+        let radius = if self.inside { -flight.radius } else { flight.radius };
+        let approach = Approach {
+            offset: flight.center - self.center,
+            velocity: flight.velocity,
+            acceleration: flight.acceleration.unwrap_or(Vec3::ZERO),
+            reach: self.radius + radius,
+            is_hollow: self.inside,
+        };
+        let slack = approach.squared(flight.slack(self.center));
+        let start = Start::at(approach.gap_squared(), slack, flight.is_leaving);
+        approach.contact_time(start, |_| true)
     }
 }

@@ -1,6 +1,8 @@
 //! Plane: a half space of solid.
 
 use super::Clearance;
+use super::free_flight::FreeFlight;
+use crate::contact::{Start, fall_of_height};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -39,5 +41,15 @@ impl<T: Real> Plane<T> {
         let normal = Vec3::splat(self.normal);
         let height = (center - Vec3::splat(self.point)).dot(normal);
         Clearance { gap: height - radius, arm: normal * radius }
+    }
+
+    /// When a sphere collides with the plane: the fall of its height, a
+    /// quadratic in time.
+    pub(super) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+        let height = self.clearance(flight.center, flight.radius).gap;
+        let start = Start::at(height, flight.slack(self.point), flight.is_leaving);
+        let pull =
+            flight.acceleration.map_or(T::ZERO, |acceleration| acceleration.dot(self.normal));
+        fall_of_height(height, flight.velocity.dot(self.normal), pull, start)
     }
 }
