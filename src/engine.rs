@@ -81,6 +81,14 @@ pub struct Collisions {
     pub surroundings: u64,
 }
 
+impl Collisions {
+    /// All of them.
+    #[must_use]
+    pub fn total(&self) -> u64 {
+        self.pairs + self.surroundings
+    }
+}
+
 /// Why an engine can't take a scene.
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
@@ -96,6 +104,23 @@ pub enum EngineError {
         duration: f64,
         /// The length of a step, time.
         dt: f64,
+    },
+    /// An event-driven world can't be advanced by this.
+    #[error("a world can't be advanced by {0}; give a duration from 0 up")]
+    NoDuration(f64),
+    /// Collision follows upon collision while time stands still.
+    #[error(
+        "time stands still at {time}: {events} events in a row without progress, the last one of \
+         sphere {body}; a sphere that rests on something, or is wedged in, never stops colliding: \
+         give it room or speed, or run the scene with `--engine stepped`"
+    )]
+    Stalled {
+        /// Simulated time.
+        time: f64,
+        /// Events since time last advanced.
+        events: u64,
+        /// The scene's index of a body that takes part.
+        body: u32,
     },
     /// The system has no threads to give.
     #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]

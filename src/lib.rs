@@ -113,7 +113,7 @@ mod workers;
 // What a first program needs.
 pub use bodies::Bodies;
 pub use contact::Surface;
-pub use engine::{EngineError, Event, Execution, Impact, Lanes, Partner, Stepped};
+pub use engine::{EngineError, Event, EventDriven, Execution, Impact, Lanes, Partner, Stepped};
 pub use motion::Integrator;
 pub use observe::{AngularMomentum, Energy, Momentum, Temperature, state_hash};
 pub use scene::{Encounters, Scene, SceneBuilder, SceneError, SceneFile, Sphere, Spheres};

@@ -46,6 +46,9 @@ use meeting::Meetings;
 use near::Near;
 use search::{Search, rank};
 
+/// Turns that may pass while time stands still, for scenes of few bodies.
+const PATIENCE: u64 = 1 << 20;
+
 /// A scene in motion, from collision to collision.
 ///
 /// ```
@@ -115,6 +118,10 @@ pub struct EventDriven<T: Real> {
     time: f64,
     /// Turns taken in this period.
     turns: u64,
+    /// Time has advanced when it is past this one.
+    progress: T,
+    /// Turns since it did.
+    standstill: u64,
 
     collisions: Collisions,
     tallies: Tallies,
@@ -199,6 +206,8 @@ impl<T: Real> EventDriven<T> {
             last_time: T::ZERO,
             time: 0.0,
             turns: 0,
+            progress: T::ZERO,
+            standstill: 0,
             collisions: Collisions::default(),
             tallies: Tallies::default(),
             tried: 0,
@@ -250,13 +259,42 @@ impl<T: Real> EventDriven<T> {
         self.tallies.virial()
     }
 
-    /// Lets time pass, and handles all events up to its end, which included.
+    /// Mean length of the flights between collisions, those under way counted
+    /// up to now: the sum of all ways over the number of their ends. `None`
+    /// before the first collision. In a field the ways are taken as straight.
+    #[must_use]
+    pub fn mean_free_path(&self) -> Option<f64> {
+        let ends = 2 * self.collisions.pairs + self.collisions.surroundings;
+        let now = self.now();
+        let under_way: CompensatedSum = (0..self.records.len())
+            .map(|place| {
+                let flight = self.records[place].flight();
+                (flight.velocity.length() * (now - flight.since)).to_f64()
+            })
+            .collect();
+        (ends > 0).then(|| (self.tallies.path() + under_way.value()) / ends as f64)
+    }
+
+    /// Lets time pass, and handles all events up to its end, which is included.
+    ///
+    /// Two advances are one, bit by bit: to stop in between changes nothing.
     ///
     /// # Errors
     /// If the duration is negative or no number, or if time no longer advances
-    /// from event to event.
+    /// from event to event; the world is then where it stopped.
     pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
-        self.run(self.time + duration, u64::MAX, None)
+        self.run(duration, u64::MAX, None)
+    }
+
+    /// Lets time pass up to the given number of collisions from now, at most
+    /// `longest`, and returns how many there were.
+    ///
+    /// # Errors
+    /// As [`advance`](EventDriven::advance).
+    pub fn advance_until(&mut self, events: u64, longest: f64) -> Result<u64, EngineError> {
+        let before = self.collisions.total();
+        self.run(longest, events, None)?;
+        Ok(self.collisions.total() - before)
     }
 
     /// [`advance`](EventDriven::advance), and tells of every collision on the
@@ -269,39 +307,68 @@ impl<T: Real> EventDriven<T> {
         duration: f64,
         mut on_event: impl FnMut(&Event<T>),
     ) -> Result<(), EngineError> {
-        self.run(self.time + duration, u64::MAX, Some(&mut on_event))
+        self.run(duration, u64::MAX, Some(&mut on_event))
     }
 
     fn run(
         &mut self,
-        until: f64,
-        most: u64,
+        duration: f64,
+        events: u64,
         mut on_event: Option<&mut dyn FnMut(&Event<T>)>,
     ) -> Result<(), EngineError> {
-        let counted = |world: &Self| world.collisions.pairs + world.collisions.surroundings;
-        let most = counted(self).saturating_add(most);
+        if !(duration >= 0.0) {
+            return Err(EngineError::NoDuration(duration));
+        }
+        let until = self.time + duration;
+        let last = self.collisions.total().saturating_add(events);
         loop {
             let ahead = until - self.origin.value();
-            let is_last = ahead < self.period.to_f64();
-            let limit = if is_last { T::from_f64(ahead) } else { self.period };
-            while counted(self) < most && !self.is_too_fast {
+            let ends_here = ahead < self.period.to_f64();
+            let limit = if ends_here { T::from_f64(ahead) } else { self.period };
+            while self.collisions.total() < last && !self.is_too_fast {
                 let Some(turn) = self.next_turn() else { break };
                 if turn.time > limit {
                     break;
                 }
+                self.check_progress(turn)?;
                 self.calendar.take();
                 self.take_turn(turn, &mut on_event);
             }
+            if self.collisions.total() == last {
+                self.time = self.time.max(self.origin.value() + self.last_time.to_f64());
+                return Ok(());
+            }
             if self.is_too_fast {
                 self.begin_period(self.last_time);
-            } else if is_last {
-                break;
+            } else if ends_here {
+                self.time = until;
+                return Ok(());
             } else {
                 self.begin_period(self.period);
             }
         }
-        self.time = until;
-        Ok(())
+    }
+
+    /// Sees to it that time advances.
+    #[inline(always)]
+    fn check_progress(&mut self, turn: Turn<T>) -> Result<(), EngineError> {
+        if turn.time > self.progress {
+            self.progress = turn.time + self.period * (T::EPSILON * T::whole(64));
+            self.standstill = 0;
+            return Ok(());
+        }
+        self.standstill += 1;
+        if self.standstill <= PATIENCE + 64 * self.records.len() as u64 {
+            return Ok(());
+        }
+        self.time = self.origin.value() + turn.time.to_f64();
+        let (events, time) = (self.standstill, self.time);
+        Err(EngineError::Stalled { time, events, body: self.index[turn.place as usize] })
+    }
+
+    /// Now, since the period's start.
+    fn now(&self) -> T {
+        T::from_f64(self.time - self.origin.value())
     }
 
     #[inline(always)]
@@ -362,7 +429,7 @@ impl<T: Real> EventDriven<T> {
     pub fn bodies(&self) -> Bodies<T> {
         let len = self.records.len();
         let mut bodies = self.bodies.clone();
-        let now = T::from_f64(self.time - self.origin.value());
+        let now = self.now();
         let tracks = self.plan.turning == Turning::FromLastContact;
         if tracks || self.plan.turning == Turning::FromStart {
             let rows = Mat3::<T>::IDENTITY.rows();

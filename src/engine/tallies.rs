@@ -10,6 +10,7 @@ use crate::vec3::Vec3;
 pub(in crate::engine) struct Tallies {
     virial: CompensatedSum,
     impulse: [CompensatedSum; 3],
+    path: CompensatedSum,
 }
 
 impl Tallies {
@@ -25,6 +26,16 @@ impl Tallies {
         for (sum, j) in self.impulse.iter_mut().zip(impulse.to_array()) {
             sum.add(j.to_f64());
         }
+    }
+
+    /// Counts the length of a flight.
+    pub fn flight<T: Real>(&mut self, length: T) {
+        self.path.add(length.to_f64());
+    }
+
+    /// The sum of the lengths of all flights.
+    pub fn path(&self) -> f64 {
+        self.path.value()
     }
 
     /// `Σ J_n·x` over pairs.

@@ -112,7 +112,11 @@ impl<T: Real> Agenda<T> {
     /// Keeps a contact if it is among the first. `comes_first` orders contacts
     /// of equal times.
     #[inline(always)]
-    pub fn keep(&mut self, found: Expected<T>, comes_first: impl Fn(PartnerCode, PartnerCode) -> bool) {
+    pub fn keep(
+        &mut self,
+        found: Expected<T>,
+        comes_first: impl Fn(PartnerCode, PartnerCode) -> bool,
+    ) {
         if !(found.time < self.complete_until) {
             return;
         }
@@ -154,12 +158,6 @@ impl<T: Real> Agenda<T> {
             self.kept[k - 1] = self.kept[k];
         }
         self.len -= 1;
-    }
-
-    /// The first kept contact.
-    #[inline(always)]
-    pub fn first(&self) -> Option<Expected<T>> {
-        if self.len > 0 { Some(self.kept[0]) } else { None }
     }
 
     /// When the body has to be looked at next.

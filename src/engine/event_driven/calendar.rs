@@ -78,7 +78,8 @@ impl<T: Real> Calendar<T> {
     /// Enters a turn. `order` is that of places whose turns have equal times.
     #[inline(always)]
     pub fn enter(&mut self, turn: Turn<T>, order: impl Fn(u32, u32) -> Ordering) {
-        let span = ((turn.time * self.spans_per_time).whole_part() as usize).min(self.last.len() - 1);
+        let span =
+            ((turn.time * self.spans_per_time).whole_part() as usize).min(self.last.len() - 1);
         if span > self.span {
             self.append(span, turn);
             return;

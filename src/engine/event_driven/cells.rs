@@ -19,7 +19,7 @@ const MOST_CELLS: usize = 64;
 /// No cell.
 const NOWHERE: u32 = u32::MAX;
 
-/// Bodies that a cell has room for at first, and their count.
+/// Bodies that a block of a cell has room for, and their count.
 const STRIDE: usize = 8;
 
 /// How space is bounded along one axis.
@@ -49,9 +49,11 @@ struct Axis<T> {
 pub(super) struct Cells<T> {
     axes: [Axis<T>; 3],
     margin: Vec3<T>,
-    stride: usize,
-    /// `stride` numbers a cell: the places of its bodies, their count last.
-    places: Vec<u32>,
+    /// Blocks of a cell.
+    blocks: usize,
+    /// The places of a cell's bodies, in as many blocks as the fullest cell
+    /// needs; the last number of the first one is their count.
+    places: Vec<[u32; STRIDE]>,
 }
 
 /// The region that the grid covers.
@@ -104,8 +106,8 @@ impl<T: Real> Cells<T> {
         Self {
             axes,
             margin: Vec3::new(x, y, z),
-            stride: STRIDE,
-            places: vec![0; cells * (BLOCK * BLOCK * BLOCK) as usize * STRIDE],
+            blocks: 1,
+            places: vec![[0; STRIDE]; cells * (BLOCK * BLOCK * BLOCK) as usize],
         }
     }
 
@@ -152,7 +154,7 @@ impl<T: Real> Cells<T> {
 
     /// How many numbers cells have.
     pub fn numbers(&self) -> usize {
-        self.places.len() / self.stride
+        self.places.len() / self.blocks
     }
 
     /// Every cell that a body of a radius can be in when it touches what lies
@@ -244,33 +246,31 @@ impl<T: Real> Cells<T> {
     /// room for [`most`](Cells::most) of them; returns how many.
     #[inline(always)]
     pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> usize {
-        let [x, y, z] = self.lines(cell);
-        let mut len = 0;
-        for z in z.into_iter().filter(|&part| part != NOWHERE) {
-            for y in y.into_iter().filter(|&part| part != NOWHERE) {
-                for x in x.into_iter().filter(|&part| part != NOWHERE) {
-                    len = self.read(x + y + z, found, len);
-                }
-            }
-        }
-        len
+        self.read_lines(self.lines(cell), found)
     }
 
     /// The bodies in the layer of cells around `cell` that has come near when
     /// it was entered along `axis`, from below if `up`.
     #[inline(always)]
     pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> usize {
-        if self.is_narrow(axis) {
-            return self.around(cell, found);
-        }
         let mut lines = self.lines(cell);
-        let part = lines[axis][if up { 2 } else { 0 }];
-        lines[axis] = [part, NOWHERE, NOWHERE];
+        if !self.is_narrow(axis) {
+            let part = lines[axis][if up { 2 } else { 0 }];
+            lines[axis] = [part, NOWHERE, NOWHERE];
+        }
+        self.read_lines(lines, found)
+    }
+
+    #[inline(always)]
+    fn read_lines(&self, [xs, ys, zs]: [[u32; 3]; 3], found: &mut [u32]) -> usize {
         let mut len = 0;
-        for z in lines[2] {
-            for y in lines[1] {
-                for x in lines[0] {
-                    if x != NOWHERE && y != NOWHERE && z != NOWHERE {
+        for z in zs {
+            for y in ys {
+                if z == NOWHERE || y == NOWHERE {
+                    continue;
+                }
+                for x in xs {
+                    if x != NOWHERE {
                         len = self.read(x + y + z, found, len);
                     }
                 }
@@ -281,69 +281,79 @@ impl<T: Real> Cells<T> {
 
     #[inline(always)]
     fn read(&self, number: u32, found: &mut [u32], len: usize) -> usize {
-        let start = number as usize * self.stride;
-        let block = &self.places[start..start + self.stride];
-        let count = block[self.stride - 1] as usize;
-        if count < STRIDE {
-            // A whole block is copied faster than a few numbers are counted.
-            found[len..len + STRIDE].copy_from_slice(&block[..STRIDE]);
-        } else {
-            found[len..len + count].copy_from_slice(&block[..count]);
+        if self.blocks > 1 {
+            return self.read_blocks(number, found, len);
         }
+        // A whole block is copied faster than a few numbers are counted.
+        let block = &self.places[number as usize];
+        found[len..len + STRIDE].copy_from_slice(block);
+        len + block[STRIDE - 1] as usize
+    }
+
+    #[inline(never)]
+    fn read_blocks(&self, number: u32, found: &mut [u32], len: usize) -> usize {
+        let start = number as usize * self.blocks;
+        let places = self.places[start..start + self.blocks].as_flattened();
+        let count = places[STRIDE - 1] as usize;
+        let first = count.min(STRIDE - 1);
+        found[len..len + first].copy_from_slice(&places[..first]);
+        found[len + first..len + count].copy_from_slice(&places[STRIDE..STRIDE + count - first]);
         len + count
     }
 
     /// How many places a buffer for [`around`](Cells::around) must have.
     pub fn most(&self) -> usize {
-        (27 * self.stride).next_multiple_of(16) + 2 * STRIDE
+        (27 * self.blocks * STRIDE).next_multiple_of(16) + 2 * STRIDE
+    }
+
+    /// The places of a cell's bodies and their count, as they lie in memory.
+    fn places_in(&mut self, cell: [i32; 3]) -> &mut [u32] {
+        let start = self.number_of(cell) as usize * self.blocks;
+        self.places[start..start + self.blocks].as_flattened_mut()
     }
 
     /// Puts a body into a cell.
     pub fn insert(&mut self, cell: [i32; 3], place: u32) {
-        let number = self.number_of(cell) as usize;
-        if self.places[(number + 1) * self.stride - 1] as usize == self.stride - 1 {
+        if self.places_in(cell)[STRIDE - 1] as usize == self.blocks * STRIDE - 1 {
             self.grow();
         }
-        let last = (number + 1) * self.stride - 1;
-        let count = self.places[last] as usize;
-        self.places[number * self.stride + count] = place;
-        self.places[last] += 1;
+        let places = self.places_in(cell);
+        let count = places[STRIDE - 1] as usize;
+        places[slot(count)] = place;
+        places[STRIDE - 1] += 1;
     }
 
     /// Takes a body out of a cell.
     pub fn remove(&mut self, cell: [i32; 3], place: u32) {
-        let start = self.number_of(cell) as usize * self.stride;
-        let block = &mut self.places[start..start + self.stride];
-        let count = block[self.stride - 1] as usize;
-        if let Some(at) = block[..count].iter().position(|&other| other == place) {
-            block[at] = block[count - 1];
-            block[self.stride - 1] -= 1;
+        let places = self.places_in(cell);
+        let count = places[STRIDE - 1] as usize;
+        if let Some(at) = (0..count).find(|&k| places[slot(k)] == place) {
+            places[slot(at)] = places[slot(count - 1)];
+            places[STRIDE - 1] -= 1;
         }
     }
 
     /// Takes all bodies out.
     pub fn clear(&mut self) {
-        for count in self.places.iter_mut().skip(self.stride - 1).step_by(self.stride) {
-            *count = 0;
+        for block in self.places.iter_mut().step_by(self.blocks) {
+            block[STRIDE - 1] = 0;
         }
     }
 
     /// Doubles the room in each cell.
     #[cold]
     fn grow(&mut self) {
-        let old = self.stride;
-        let stride = old * 2;
-        let mut places = vec![0; self.places.len() * 2];
-        for (to, from) in places.chunks_mut(stride).zip(self.places.chunks(old)) {
-            to[..old - 1].copy_from_slice(&from[..old - 1]);
-            to[stride - 1] = from[old - 1];
+        let blocks = self.blocks * 2;
+        let mut places = vec![[0; STRIDE]; self.places.len() * 2];
+        for (to, from) in places.chunks_mut(blocks).zip(self.places.chunks(self.blocks)) {
+            to[..from.len()].copy_from_slice(from);
         }
-        (self.places, self.stride) = (places, stride);
+        (self.places, self.blocks) = (places, blocks);
     }
 
     /// The bytes that the cells hold.
     pub fn bytes(&self) -> usize {
-        self.places.capacity() * size_of::<u32>()
+        self.places.capacity() * size_of::<[u32; STRIDE]>()
     }
 }
 
@@ -362,6 +372,11 @@ impl<T: Real> Axis<T> {
     fn folded(&self, cell: i32) -> i32 {
         if (cell as u32) < self.count as u32 { cell } else { cell.rem_euclid(self.count) }
     }
+}
+
+/// Where the body of a number is among a cell's places.
+fn slot(number: usize) -> usize {
+    number + usize::from(number >= STRIDE - 1)
 }
 
 /// Cells along the side of a block that lies together in memory.
@@ -390,8 +405,7 @@ fn number<T>(axes: &mut [Axis<T>; 3]) {
             // With two cells each is the other's only neighbour.
             _ => NOWHERE,
         };
-        axis.parts = (0..count)
-            .map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)])
-            .collect();
+        axis.parts =
+            (0..count).map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)]).collect();
     }
 }

@@ -103,7 +103,8 @@ impl<T: Real> EventDriven<T> {
     #[inline(always)]
     fn arrive(&mut self, place: usize, time: T) {
         let (position, velocity) = self.state_of(place, time);
-        let radius = self.records[place].flight().radius;
+        let Flight { velocity: start, since, radius, .. } = self.records[place].flight();
+        self.tallies.flight(start.length() * (time - since));
         let mut flight = Flight { position, velocity, since: time, radius };
         if let Some(space) = self.periodic {
             flight.position = space.wrap(position);

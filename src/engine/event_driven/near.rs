@@ -41,7 +41,9 @@ impl Near {
                 if is_open {
                     match feature.bounds() {
                         None => near.everywhere.push(this),
-                        Some(bounds) => cells.each_in(bounds, radius, |cell| found.push((cell, this))),
+                        Some(bounds) => {
+                            cells.each_in(bounds, radius, |cell| found.push((cell, this)))
+                        }
                     }
                 } else {
                     let is_near = |center: Vec3<T>, reach: T| {
@@ -97,7 +99,8 @@ pub(super) fn region<T: Real>(
     features: &[Feature<T>],
     centers: impl Iterator<Item = Vec3<T>>,
 ) -> Region<T> {
-    let lesser = |a: Vec3<T>, b: Vec3<T>| Vec3::new(a.x.lesser(b.x), a.y.lesser(b.y), a.z.lesser(b.z));
+    let lesser =
+        |a: Vec3<T>, b: Vec3<T>| Vec3::new(a.x.lesser(b.x), a.y.lesser(b.y), a.z.lesser(b.z));
     let greater =
         |a: Vec3<T>, b: Vec3<T>| Vec3::new(a.x.greater(b.x), a.y.greater(b.y), a.z.greater(b.z));
     let inside = interiors.reduce(|[a, b], [c, d]| [greater(a, c), lesser(b, d)]);

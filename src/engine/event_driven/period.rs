@@ -53,6 +53,7 @@ impl<T: Real> EventDriven<T> {
         self.origin.add(end.to_f64());
         self.is_too_fast = false;
         self.last_time = T::ZERO;
+        self.progress = T::ZERO;
         self.choose_period();
         let turns = if self.turns == 0 || end == T::ZERO {
             TURNS * self.records.len() as f64 / self.period.to_f64()
@@ -75,7 +76,8 @@ impl<T: Real> EventDriven<T> {
         for place in 0..self.records.len() {
             let (position, velocity) = self.state_of(place, end);
             let position = self.periodic.map_or(position, |space| space.wrap(position));
-            let radius = self.records[place].flight().radius;
+            let Flight { velocity: start, since, radius, .. } = self.records[place].flight();
+            self.tallies.flight(start.length() * (end - since));
             let flight = Flight { position, velocity, since: T::ZERO, radius };
             self.records[place] = Record::new(flight);
             if let Some((orientation, since)) = self.turned.get_mut(place) {
@@ -111,9 +113,10 @@ impl<T: Real> EventDriven<T> {
         let extent = self.records.iter().fold(0.0, |most, record| {
             record.flight().position.to_array().into_iter().fold(most, greatest)
         });
-        let least = self.records.iter().fold(f64::INFINITY, |least: f64, record| {
-            least.min(record.flight().radius.to_f64())
-        });
+        let least = self
+            .records
+            .iter()
+            .fold(f64::INFINITY, |least: f64, record| least.min(record.flight().radius.to_f64()));
         let fallen = self.gravity.length().to_f64() * self.period.to_f64();
         Scales {
             extent,

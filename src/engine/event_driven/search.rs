@@ -50,14 +50,8 @@ impl<T: Real> EventDriven<T> {
 
     /// Looks for contacts with the bodies found.
     #[inline(always)]
-    fn search_found<L, C, F, S, R>(
-        &mut self,
-        place: u32,
-        len: usize,
-        now: T,
-        space: S,
-        coarse: R,
-    ) where
+    fn search_found<L, C, F, S, R>(&mut self, place: u32, len: usize, now: T, space: S, coarse: R)
+    where
         L: Lane<Scalar = T>,
         C: Lane<Scalar = T::Coarse>,
         F: FlightStep,
@@ -142,9 +136,8 @@ impl<T: Real> EventDriven<T> {
                         // box they may well meet.
                         let other = self.records[other as usize].flight();
                         let (further, gravity) = (self.further[image], self.gravity);
-                        let met = meeting::<T, F, S, STARTS>(
-                            &own, &other, gravity, space, further, now,
-                        );
+                        let met =
+                            meeting::<T, F, S, STARTS>(&own, &other, gravity, space, further, now);
                         if met.is_touching() {
                             continue;
                         }
@@ -168,9 +161,7 @@ impl<T: Real> EventDriven<T> {
     /// Whether each of two bodies has met nobody since they met each other.
     #[inline(always)]
     fn met_last(&self, a: usize, b: usize) -> bool {
-        let is_last = |a: usize, b: usize| {
-            self.agendas[a].last == PartnerCode::body(self.index[b])
-        };
+        let is_last = |a: usize, b: usize| self.agendas[a].last == PartnerCode::body(self.index[b]);
         is_last(a, b) && is_last(b, a)
     }
 }
