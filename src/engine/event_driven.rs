@@ -37,7 +37,7 @@ use crate::real::Real;
 use crate::scene::Scene;
 use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space};
 use crate::vec3::Vec3;
-use agenda::{Agenda, Next};
+use agenda::{Agenda, Mark, Next};
 use calendar::{Calendar, Turn};
 use cells::Cells;
 use coarse::Coarse;
@@ -83,6 +83,7 @@ pub struct EventDriven<T: Real> {
     // By place: neighbours in space are neighbours in memory.
     records: Vec<Record<T>>,
     agendas: Vec<Agenda<T>>,
+    marks: Vec<Mark>,
     spins: Vec<Vec3<T>>,
     /// Where contacts change spins: orientations, and since when they are true.
     turned: Vec<(Mat3<T>, T)>,
@@ -185,6 +186,7 @@ impl<T: Real> EventDriven<T> {
             near,
             records: Vec::new(),
             agendas: Vec::new(),
+            marks: Vec::new(),
             spins: Vec::new(),
             turned: Vec::new(),
             index: (0..len as u32).collect(),
@@ -407,7 +409,7 @@ impl<T: Real> EventDriven<T> {
                     self.collide_with_feature(place, feature, time, on_event);
                     return;
                 }
-                Ok(other) if self.agendas[other as usize].changes == expected.changes => {
+                Ok(other) if self.marks[other as usize].changes == expected.changes => {
                     self.collide_pair(place, other, time, on_event);
                     return;
                 }
@@ -478,6 +480,7 @@ impl<T: Real> EventDriven<T> {
     pub fn bytes(&self) -> usize {
         self.records.capacity() * size_of::<Record<T>>()
             + self.agendas.capacity() * size_of::<Agenda<T>>()
+            + self.marks.capacity() * size_of::<Mark>()
             + self.spins.capacity() * size_of::<Vec3<T>>()
             + self.turned.capacity() * size_of::<(Mat3<T>, T)>()
             + self.index.capacity() * size_of::<u32>()

@@ -5,7 +5,7 @@
 //! are sorted by cell and all that is ahead is looked for again.
 
 use super::EventDriven;
-use super::agenda::{Agenda, PartnerCode};
+use super::agenda::{Agenda, Mark, PartnerCode};
 use super::coarse::Scales;
 use super::flight::{Flight, Record};
 use crate::engine::plan::Turning;
@@ -43,7 +43,7 @@ impl<T: Real> EventDriven<T> {
         if self.plan.turning == Turning::FromLastContact {
             self.turned = (0..len).map(|index| (bodies.orientation_of(index), T::ZERO)).collect();
         }
-        self.agendas = vec![Agenda::new([0; 3], PartnerCode::NONE); len];
+        self.marks = vec![Mark { changes: 0, last: PartnerCode::NONE }; len];
         self.begin_period(T::ZERO);
     }
 
@@ -146,14 +146,9 @@ impl<T: Real> EventDriven<T> {
         if !self.turned.is_empty() {
             self.turned = order.iter().map(|place| self.turned[from(place)]).collect();
         }
-        let agendas = &self.agendas;
-        self.agendas = order
-            .iter()
-            .zip(&self.records)
-            .map(|(place, record)| {
-                Agenda::new(cells.cell_of(record.flight().position), agendas[from(place)].last)
-            })
-            .collect();
+        self.marks = order.iter().map(|place| self.marks[from(place)]).collect();
+        let agenda = |record: &Record<T>| Agenda::new(cells.cell_of(record.flight().position));
+        self.agendas = self.records.iter().map(agenda).collect();
         if self.plan.has_pairs {
             for place in 0..self.records.len() {
                 self.cells.insert(self.agendas[place].cell, place as u32);
