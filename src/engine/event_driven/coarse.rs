@@ -48,6 +48,10 @@ fn coarse<T: Real, C: Real>(value: T) -> C {
     C::from_f64(value.to_f64())
 }
 
+/// Between these the scene's products of four lengths and speeds must be, lest
+/// they leave the range of `f32`.
+const SQUARES: [f64; 2] = [1e-12, 1e30];
+
 fn coarse_vector<T: Real, C: Real>(vector: Vec3<T>) -> Vec3<C> {
     Vec3::new(coarse(vector.x), coarse(vector.y), coarse(vector.z))
 }
@@ -75,7 +79,10 @@ impl<C: Real> Coarse<C> {
         let ways = 16.0 * epsilon * (extent + speed * period);
         let products = 16.0 * epsilon * neighbourhood * neighbourhood / reach;
         let margin = ways + products;
-        self.is_useful = size_of::<C>() < size_of::<T>() && margin < reach / 32.0;
+        // The greatest product is that of the vector product's square.
+        let greatest = (neighbourhood * speed).powi(2);
+        let is_in_range = (SQUARES[0]..SQUARES[1]).contains(&greatest);
+        self.is_useful = size_of::<C>() < size_of::<T>() && margin < reach / 32.0 && is_in_range;
         self.margin = C::from_f64(margin);
         self.slack = C::from_f64(4.0 * speed * margin);
         let useful = if self.is_useful { records } else { &[] };
