@@ -21,7 +21,7 @@ const FLIGHT: f64 = 8.0;
 const FAST: f64 = 8.0;
 
 /// Turns for which a span of the calendar is made.
-const TOGETHER: f64 = 12.0;
+const TOGETHER: f64 = 24.0;
 
 /// Turns for each body in the first period, before any were counted.
 const TURNS: f64 = 64.0;
