@@ -93,7 +93,10 @@ impl Collisions {
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     /// The stepped engine needs the length of a step.
-    #[error("the scene has no step; set `dt` under [stepped], or `--dt`, to its length in time")]
+    #[error(
+        "the scene has no step; set `dt` under [stepped], or `--dt`, or `.dt()` of the builder, to \
+         its length in time"
+    )]
     NoStep,
     /// A world can't be advanced by this.
     #[error(
@@ -121,6 +124,15 @@ pub enum EngineError {
         events: u64,
         /// The scene's index of a body that takes part.
         body: u32,
+    },
+    /// The squares of speeds are no longer numbers.
+    #[error(
+        "at time {time} the speeds leave the range of numbers; `--precision f64`, or units in which \
+         lengths and speeds are nearer to 1, may keep them in it"
+    )]
+    TooFast {
+        /// Simulated time.
+        time: f64,
     },
     /// The system has no threads to give.
     #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]
