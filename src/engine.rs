@@ -113,7 +113,7 @@ pub enum EngineError {
     NoDuration(f64),
     /// Collision follows upon collision while time stands still.
     #[error(
-        "time stands still at {time}: {events} events in a row without progress, the last one of \
+        "time stands still at {time:?}: {events} events in a row without progress, the last one of \
          sphere {body}; a sphere that rests on something, or is wedged in, never stops colliding: \
          give it room or speed, or run the scene with `--engine stepped`"
     )]
@@ -127,7 +127,7 @@ pub enum EngineError {
     },
     /// The squares of speeds are no longer numbers.
     #[error(
-        "at time {time} the speeds leave the range of numbers; `--precision f64`, or units in which \
+        "at time {time:?} the speeds leave the range of numbers; `--precision f64`, or units in which \
          lengths and speeds are nearer to 1, may keep them in it"
     )]
     TooFast {

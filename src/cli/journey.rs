@@ -30,7 +30,11 @@ pub struct Journey {
 impl Journey {
     /// A run of a world over a duration. In a gas, `temperature` and `surface`
     /// are what its mean temperature is to be made of.
-    pub fn new<T: Real>(world: &World<T>, duration: f64, gas: Option<(Temperature, Surface)>) -> Self {
+    pub fn new<T: Real>(
+        world: &World<T>,
+        duration: f64,
+        gas: Option<(Temperature, Surface)>,
+    ) -> Self {
         let length = world.length(duration);
         let samples = gas.map(|(first, surface)| Samples::new(first, surface));
         Self { length, busy: Duration::ZERO, samples }
@@ -47,15 +51,14 @@ impl Journey {
         let mut events = events.map(Recorder::new).transpose()?;
         let mut stretch: u64 = 1;
         loop {
-            let mark = self.samples.as_ref().map_or(self.length, |samples| samples.mark(self.length));
+            let mark =
+                self.samples.as_ref().map_or(self.length, |samples| samples.mark(self.length));
             let start = Instant::now();
             let is_there = match &mut events {
                 None => world.advance(mark, self.length, stretch, None)?,
-                Some(events) => {
-                    events.advance(|on_event| {
-                        world.advance(mark, self.length, stretch, Some(on_event))
-                    })?
-                }
+                Some(events) => events.advance(|on_event| {
+                    world.advance(mark, self.length, stretch, Some(on_event))
+                })?,
             };
             let taken = start.elapsed();
             self.busy += taken;

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal};
 
 use carom::engine::EngineKind;
 use carom::real::Real;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use super::world::World;
 
@@ -23,7 +23,7 @@ impl Progress {
     pub fn new(length: f64) -> Self {
         let bar = io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(GRAINS as u64);
-            let template = "{bar:20} {percent:>3}%  {msg}  {eta} left";
+            let template = "{bar:20} {percent:>3}%  {msg}";
             if let Ok(style) = ProgressStyle::with_template(template) {
                 bar.set_style(style);
             }
@@ -43,8 +43,15 @@ impl Progress {
         let rate = done as f64 / busy.as_secs_f64().max(1e-9);
         let time = world.time();
         let time = if time < 0.01 { format!("{time:.2e}") } else { format!("{time:.4}") };
-        bar.set_message(format!("time {time}  {count} collisions  {rate:.0} {unit}/s"));
-        bar.set_position((world.place() / self.length * GRAINS) as u64);
+        let part = world.place() / self.length;
+        // The bar's own estimate says 0 as long as it sees nothing move.
+        let left = Duration::try_from_secs_f64(busy.as_secs_f64() * (1.0 / part - 1.0));
+        let left = left.map_or_else(
+            |_| "no end in sight".into(),
+            |left| format!("{} left", HumanDuration(left)),
+        );
+        bar.set_message(format!("time {time}  {count} collisions  {rate:.0} {unit}/s  {left}"));
+        bar.set_position((part * GRAINS) as u64);
     }
 }
 

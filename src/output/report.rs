@@ -69,7 +69,10 @@ impl Summary {
         );
         let mut speed = Vec::new();
         if self.body_steps_per_second > 0.0 {
-            speed.push(format!("{} ns per body and step", rounded(1e9 / self.body_steps_per_second)));
+            speed.push(format!(
+                "{} ns per body and step",
+                rounded(1e9 / self.body_steps_per_second)
+            ));
         }
         if self.collisions_per_second > 0.0 {
             speed.push(format!("{} collisions per second", rounded(self.collisions_per_second)));
