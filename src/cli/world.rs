@@ -8,8 +8,8 @@ use carom::output::Work;
 use carom::real::Real;
 use carom::scene::Scene;
 
-/// Parts of a run that an event-driven world goes through at the least: a power
-/// of two, so that its ends are exact.
+/// Into how many parts the duration of an event-driven run is divided: a stretch
+/// of one is over after such a part, or after one collision.
 const PARTS: f64 = 1_048_576.0;
 
 /// A scene in motion. How far it is, is told in steps or in time.
