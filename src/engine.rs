@@ -8,7 +8,7 @@ mod tallies;
 
 use serde::{Deserialize, Serialize};
 
-pub use event::{Event, Partner};
+pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
 pub use plan::{Plan, Turning};
 pub use stepped::Stepped;

@@ -2,7 +2,7 @@
 
 use carom::bodies::Bodies;
 use carom::engine::{
-    Collisions, EngineError, EngineKind, Event, EventDriven, Execution, Plan, Stepped,
+    Collisions, EngineError, EngineKind, EventDriven, Execution, Listener, Plan, Stepped,
 };
 use carom::output::Work;
 use carom::real::Real;
@@ -95,7 +95,7 @@ impl<T: Real> World<T> {
         mark: f64,
         length: f64,
         stretch: u64,
-        on_event: Option<&mut dyn FnMut(&Event<T>)>,
+        on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
         match self {
             Self::Stepped(world) => {
@@ -109,7 +109,7 @@ impl<T: Real> World<T> {
             }
             Self::EventDriven(world) => {
                 let end = world.time() + length * (stretch as f64 / PARTS);
-                let is_last = !(end < mark);
+                let is_last = end >= mark;
                 let end = if is_last { mark } else { end };
                 Ok(world.advance_to(end, stretch, on_event)? && is_last)
             }

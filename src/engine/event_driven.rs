@@ -25,7 +25,7 @@ mod search;
 
 use super::plan::{Plan, Turning};
 use super::tallies::Tallies;
-use super::{Collisions, EngineError, EngineKind, Event, Execution};
+use super::{Collisions, EngineError, EngineKind, Event, Execution, Listener};
 use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
 use crate::lane::Lane;
@@ -341,9 +341,9 @@ impl<T: Real> EventDriven<T> {
         &mut self,
         time: f64,
         events: u64,
-        mut on_event: Option<&mut dyn FnMut(&Event<T>)>,
+        mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
-        if !(time >= self.time) {
+        if time.is_nan() || time < self.time {
             return Err(EngineError::NoDuration(time - self.time));
         }
         let last = self.collisions.total().saturating_add(events);
@@ -425,7 +425,7 @@ impl<T: Real> EventDriven<T> {
     }
 
     #[inline(always)]
-    fn take_turn(&mut self, turn: Turn<T>, on_event: &mut Option<&mut dyn FnMut(&Event<T>)>) {
+    fn take_turn(&mut self, turn: Turn<T>, on_event: &mut Listener<'_, T>) {
         let Turn { time, place } = turn;
         self.turns += 1;
         match self.agendas[place as usize].next() {
