@@ -117,7 +117,7 @@ impl<T: Real> Agenda<T> {
         found: Expected<T>,
         comes_first: impl Fn(PartnerCode, PartnerCode) -> bool,
     ) {
-        if !found.time.lt(self.complete_until) {
+        if !(found.time < self.complete_until) {
             return;
         }
         let len = self.len as usize;

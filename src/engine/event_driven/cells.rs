@@ -89,8 +89,7 @@ impl<T: Real> Cells<T> {
         let upper = region.upper.to_array();
         let mut counts = [1; 3];
         let mut axes = core::array::from_fn(|k| {
-            // Bodies in a plane or in a point leave it as they move.
-            let extent = (upper[k] - lower[k]).greater(reach);
+            let extent = upper[k] - lower[k];
             let fits = |side: T| (extent / side).whole_part().clamp(1, i64::from(most)) as i32;
             let mut count = fits(wanted);
             // Every cell of a narrow box neighbours every other one.
@@ -124,8 +123,8 @@ impl<T: Real> Cells<T> {
         core::array::from_fn(|k| {
             let axis = &self.axes[k];
             let cells = (point[k] - axis.lower) / axis.side;
-            let whole = cells.whole_part().clamp(-(1 << 30), 1 << 30);
-            axis.held((whole - i64::from(cells < T::ZERO)) as i32)
+            let whole = cells.whole_part().saturating_sub(i64::from(cells < T::ZERO));
+            axis.held(whole.clamp(-(1 << 30), 1 << 30) as i32)
         })
     }
 

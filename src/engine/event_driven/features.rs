@@ -33,7 +33,7 @@ impl<T: Real> EventDriven<T> {
         let mut center = flight.position - self.images[image as usize];
         if let Some(space) = self.periodic {
             let turns = self.cells.turns(self.agendas[at].cell);
-            center -= space.shift(turns);
+            center = center - space.shift(turns);
         }
         let feature = &self.features[feature as usize];
         // In a periodic box it has left one image only.

@@ -127,7 +127,7 @@ impl<T: Real> EventDriven<T> {
                 }
                 while let Some((k, time)) = self.meetings.take() {
                     let other = self.found[start + k];
-                    if !time.lt(self.agendas[place as usize].complete_until()) {
+                    if !(time < self.agendas[place as usize].complete_until()) {
                         continue;
                     }
                     if self.met_last(place as usize, other as usize) {
