@@ -286,7 +286,7 @@ impl<T: Real> EventDriven<T> {
     /// event to event, or if the motion leaves the range of numbers; the world
     /// is then where it stopped.
     pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
-        self.advance_to(self.time + duration, u64::MAX, None).map(|_| ())
+        self.advance_to(self.after(duration)?, u64::MAX, None).map(|_| ())
     }
 
     /// Lets time pass up to the given number of collisions from now, at most
@@ -296,7 +296,7 @@ impl<T: Real> EventDriven<T> {
     /// As [`advance`](EventDriven::advance).
     pub fn advance_until(&mut self, events: u64, longest: f64) -> Result<u64, EngineError> {
         let before = self.collisions.total();
-        self.advance_to(self.time + longest, events, None)?;
+        self.advance_to(self.after(longest)?, events, None)?;
         Ok(self.collisions.total() - before)
     }
 
@@ -310,7 +310,15 @@ impl<T: Real> EventDriven<T> {
         duration: f64,
         mut on_event: impl FnMut(&Event<T>),
     ) -> Result<(), EngineError> {
-        self.advance_to(self.time + duration, u64::MAX, Some(&mut on_event)).map(|_| ())
+        self.advance_to(self.after(duration)?, u64::MAX, Some(&mut on_event)).map(|_| ())
+    }
+
+    /// The time that is a duration away.
+    fn after(&self, duration: f64) -> Result<f64, EngineError> {
+        if duration >= 0.0 {
+            return Ok(self.time + duration);
+        }
+        Err(EngineError::NoDuration(duration))
     }
 
     /// Lets time pass up to `time`, counted from the start, or up to the given
@@ -345,9 +353,7 @@ impl<T: Real> EventDriven<T> {
         events: u64,
         mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
-        if time.is_nan() || time < self.time {
-            return Err(EngineError::NoDuration(time - self.time));
-        }
+        self.after(time - self.time)?;
         let last = self.collisions.total().saturating_add(events);
         loop {
             let ahead = time - self.origin.value();
