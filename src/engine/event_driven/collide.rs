@@ -6,14 +6,11 @@ use super::flight::{Flight, Record};
 use crate::bodies::PerBody;
 use crate::contact::{Impulse, Party, collide};
 use crate::engine::plan::Turning;
-use crate::engine::{Event, Partner};
+use crate::engine::{Event, Listener, Partner};
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::surroundings::Space;
 use crate::vec3::Vec3;
-
-/// Who is told of collisions.
-type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
 
 impl<T: Real> EventDriven<T> {
     /// The bodies at two places collide.

@@ -26,6 +26,9 @@ const TOGETHER: f64 = 24.0;
 /// Turns for each body in the first period, before any were counted.
 const TURNS: f64 = 64.0;
 
+/// The longest period, about 10²⁴, for bodies that meet nothing or stand still.
+const LONGEST: f64 = (1_u128 << 80) as f64;
+
 impl<T: Real> EventDriven<T> {
     /// Puts the bodies of the scene in their places, and begins the first
     /// period.
@@ -90,6 +93,10 @@ impl<T: Real> EventDriven<T> {
     /// The power of two nearest below the time that bodies take for a few mean
     /// distances: multiples of it are added up without rounding.
     fn choose_period(&mut self) {
+        if !self.plan.has_pairs && self.features.is_empty() {
+            (self.period, self.too_fast) = (T::from_f64(LONGEST), T::from_f64(LONGEST));
+            return;
+        }
         let len = self.records.len();
         let mut squares = vec![0.0; len];
         for (record, &index) in self.records.iter().zip(&self.index) {
@@ -101,7 +108,7 @@ impl<T: Real> EventDriven<T> {
         let spacing = self.spacing.to_f64();
         let fallen = self.gravity.length().to_f64() * spacing;
         let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
-        let flight = (FLIGHT * spacing / speed).clamp(1e-25, 1e25);
+        let flight = (FLIGHT * spacing / speed).clamp(1e-25, LONGEST);
         self.period = T::from_f64(flight.log2().floor().exp2());
         let limit = 2.0 * FAST * speed;
         self.too_fast = T::from_f64((limit * limit).max(1e-30));
