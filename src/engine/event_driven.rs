@@ -165,6 +165,8 @@ impl<T: Real> EventDriven<T> {
                 cells::Region { lower, upper, ends: cells::Ends::Joined }
             }
             None => near::region(
+                // Wide enough for cells that do not all neighbour each other.
+                radius * T::whole(9),
                 interiors.filter(|_| plan.features > 0),
                 &features,
                 (0..len).map(|index| bodies.position_of(index)),

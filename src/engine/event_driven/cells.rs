@@ -123,7 +123,7 @@ impl<T: Real> Cells<T> {
         core::array::from_fn(|k| {
             let axis = &self.axes[k];
             let cells = (point[k] - axis.lower) / axis.side;
-            let whole = cells.whole_part() - i64::from(cells < T::ZERO);
+            let whole = cells.whole_part().saturating_sub(i64::from(cells < T::ZERO));
             axis.held(whole.clamp(-(1 << 30), 1 << 30) as i32)
         })
     }

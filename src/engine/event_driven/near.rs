@@ -93,8 +93,10 @@ impl Near {
 }
 
 /// The region in which bodies are: the inside of the containers, or what the
-/// bodies and the solids without end span at the start.
+/// bodies and the solids without end span at the start. Bodies on a line or in a
+/// plane span nothing across: `least` is what each side has at least.
 pub(super) fn region<T: Real>(
+    least: T,
     interiors: impl Iterator<Item = [Vec3<T>; 2]>,
     features: &[Feature<T>],
     centers: impl Iterator<Item = Vec3<T>>,
@@ -111,5 +113,11 @@ pub(super) fn region<T: Real>(
     let points = solids.chain(centers.map(|center| [center, center]));
     let all = points.reduce(|[a, b], [c, d]| [lesser(a, c), greater(b, d)]);
     let [lower, upper] = all.unwrap_or([Vec3::ZERO, Vec3::ZERO]);
-    Region { lower, upper, ends: Ends::Joined }
+    let missing = |low: T, high: T| (least - (high - low)).greater(T::ZERO) * T::ratio(1, 2);
+    let missing = Vec3::new(
+        missing(lower.x, upper.x),
+        missing(lower.y, upper.y),
+        missing(lower.z, upper.z),
+    );
+    Region { lower: lower - missing, upper: upper + missing, ends: Ends::Joined }
 }
