@@ -2,6 +2,7 @@
 //! laws that it must keep, a program of a page that finds the same events, and
 //! equal bits on every path.
 
+mod agreement;
 mod exact;
 mod fluid;
 mod interruptions;
