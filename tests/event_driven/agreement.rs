@@ -24,9 +24,10 @@ enum Kind {
     Periodic,
     NarrowPeriodic,
     PeriodicSolids,
+    Symmetric,
 }
 
-const KINDS: [Kind; 8] = [
+const KINDS: [Kind; 9] = [
     Kind::Open,
     Kind::Floor,
     Kind::Container,
@@ -35,13 +36,19 @@ const KINDS: [Kind; 8] = [
     Kind::Periodic,
     Kind::NarrowPeriodic,
     Kind::PeriodicSolids,
+    Kind::Symmetric,
 ];
 
 const LANES: [Lanes; 5] = [Lanes::Auto, Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Sixteen];
 
 /// What is fixed in a space of these sides.
-fn surroundings(kind: Kind, sides: [f64; 3], random: &mut ChaCha8Rng) -> Vec<Shape<f64>> {
-    let part = |k: usize, share: f64| share * sides[k];
+fn surroundings(
+    kind: Kind,
+    lower: [f64; 3],
+    sides: [f64; 3],
+    random: &mut ChaCha8Rng,
+) -> Vec<Shape<f64>> {
+    let part = |k: usize, share: f64| lower[k] + share * sides[k];
     let at = |share: f64| [part(0, share), part(1, share), part(2, share)];
     let solids = |random: &mut ChaCha8Rng| -> Vec<Shape<f64>> {
         let [low, high] = [random.random_range(0.1..0.3), random.random_range(0.32..0.45)];
@@ -51,12 +58,12 @@ fn surroundings(kind: Kind, sides: [f64; 3], random: &mut ChaCha8Rng) -> Vec<Sha
         let sphere = FixedSphere::solid([part(0, 0.7), part(1, 0.3), part(2, 0.6)], radius);
         vec![Cuboid::solid(corner, opposite).into(), sphere.into()]
     };
-    let container = Cuboid::container([0.0; 3], sides).into();
+    let container = Cuboid::container(lower, at(1.0)).into();
     match kind {
-        Kind::Open | Kind::Periodic | Kind::NarrowPeriodic => vec![],
+        Kind::Open | Kind::Periodic | Kind::NarrowPeriodic | Kind::Symmetric => vec![],
         Kind::Floor => {
             let tilt = [random.random_range(-0.3..0.3), random.random_range(-0.3..0.3), 1.0];
-            vec![Plane::new([0.0; 3], tilt).into()]
+            vec![Plane::new(lower, tilt).into()]
         }
         Kind::Container => vec![container],
         Kind::Solids => [vec![container], solids(random)].concat(),
@@ -68,24 +75,47 @@ fn surroundings(kind: Kind, sides: [f64; 3], random: &mut ChaCha8Rng) -> Vec<Sha
     }
 }
 
+/// A shape in the scene's precision.
+fn rounded<T: Real>(shape: Shape<f64>) -> Shape<T> {
+    let vector = |vector: Vec3<f64>| t3(vector.to_array()).into();
+    match shape {
+        Shape::Plane(Plane { point, normal }) => {
+            Plane::new(t3(point.to_array()), t3(normal.to_array())).into()
+        }
+        Shape::Cuboid(Cuboid { lower, upper, inside }) => {
+            Cuboid { lower: vector(lower), upper: vector(upper), inside }.into()
+        }
+        Shape::FixedSphere(FixedSphere { center, radius, inside }) => {
+            let (center, radius) = (vector(center), T::from_f64(radius));
+            FixedSphere { center, radius, inside }.into()
+        }
+    }
+}
+
 /// A random scene.
 fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
+    if kind == Kind::Symmetric {
+        return symmetric(seed);
+    }
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let is_mixed = random.random_bool(0.5);
-    let is_narrow = kind == Kind::NarrowPeriodic;
-    let most = if is_narrow { 4 } else { 30 };
-    let count = random.random_range(if is_narrow { 2..6 } else { 2..most + 1 });
+    let count = random.random_range(if kind == Kind::NarrowPeriodic { 2..6 } else { 2..31 });
     let sides: [f64; 3] = core::array::from_fn(|_| match kind {
         Kind::NarrowPeriodic => random.random_range(2.05..4.2),
         Kind::Periodic => random.random_range(3.0..8.0),
         Kind::PeriodicSolids => random.random_range(6.0..8.0),
         _ => random.random_range(4.0..8.0),
     });
+    // Far off, where positions have three digits less.
+    let lower = if random.random_bool(0.2) { [1000.0, -2000.0, 0.0] } else { [0.0; 3] };
+    let upper = core::array::from_fn(|k| lower[k] + sides[k]);
+    // Some fast ones among many that hardly move.
+    let decades = if random.random_bool(0.25) { 3.0 } else { 0.0 };
     let is_periodic = matches!(kind, Kind::Periodic | Kind::NarrowPeriodic | Kind::PeriodicSolids);
     let has_field = kind == Kind::Floor || random.random_bool(0.4);
     let gravity = if has_field { [0.3, 0.0, -random.random_range(0.1..5.0)] } else { [0.0; 3] };
     let rough = random.random_bool(0.5);
-    let shapes = surroundings(kind, sides, &mut random);
+    let shapes = surroundings(kind, lower, sides, &mut random);
     let features: Vec<Feature<f64>> = shapes.iter().flat_map(Shape::features).collect();
 
     let mut builder = builder::<T>()
@@ -93,29 +123,15 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
         .surface(if rough { Surface::Rough } else { Surface::Smooth })
         .gravity(t3(gravity));
     if is_periodic {
-        builder = builder.periodic(PeriodicBox::new(t3([0.0; 3]), t3(sides)));
+        builder = builder.periodic(PeriodicBox::new(t3(lower), t3(upper)));
     }
     for shape in shapes {
-        builder = match shape {
-            Shape::Plane(Plane { point, normal }) => {
-                builder.surroundings(Plane::new(t3(point.to_array()), t3(normal.to_array())))
-            }
-            Shape::Cuboid(cuboid) => builder.surroundings(Cuboid {
-                lower: t3(cuboid.lower.to_array()).into(),
-                upper: t3(cuboid.upper.to_array()).into(),
-                inside: cuboid.inside,
-            }),
-            Shape::FixedSphere(sphere) => builder.surroundings(FixedSphere {
-                center: t3(sphere.center.to_array()).into(),
-                radius: T::from_f64(sphere.radius),
-                inside: sphere.inside,
-            }),
-        };
+        builder = builder.surroundings(rounded(shape));
     }
     let mut placed: Vec<([f64; 3], f64)> = Vec::new();
     for _ in 0..count * 20 {
         let radius = if is_mixed { random.random_range(0.1..0.5) } else { 0.5 };
-        let center = sides.map(|side| random.random_range(0.0..side));
+        let center: [f64; 3] = core::array::from_fn(|k| random.random_range(lower[k]..upper[k]));
         let is_far = |(other, reach): &([f64; 3], f64)| {
             let distance = (0..3).map(|k| {
                 let d = (center[k] - other[k]).abs();
@@ -130,8 +146,10 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
         }
         placed.push((center, radius));
         let inwards = if matches!(kind, Kind::Open | Kind::Floor) { 1.0 } else { 0.0 };
+        let speed = 10.0_f64.powf(decades * random.random_range(-1.0..1.0));
         let velocity = core::array::from_fn(|k| {
-            random.random_range(-1.0..1.0) - inwards * (center[k] - 0.5 * sides[k])
+            let outwards = center[k] - lower[k] - 0.5 * sides[k];
+            speed * (random.random_range(-1.0..1.0) - inwards * outwards)
         });
         let spin = core::array::from_fn(|_| random.random_range(-3.0..3.0));
         let mass = if is_mixed { random.random_range(0.2..3.0) } else { 1.0 };
@@ -139,6 +157,34 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
         builder = builder.sphere(sphere.velocity(velocity).spin(spin));
     }
     builder.build().unwrap_or_else(|error| panic!("{kind:?} {seed}: {error}"))
+}
+
+/// Balls on some sites of a lattice with velocities of a few values: many
+/// contacts come at the same time.
+fn symmetric<T: Real>(seed: u64) -> Scene<T> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut builder = builder::<T>().name(format!("Symmetric {seed}"));
+    let (spacing, sites) = (if seed.is_multiple_of(3) { 1.0 } else { 1.5 }, 4);
+    let side = spacing * f64::from(sites);
+    builder = match seed % 4 {
+        0 => builder,
+        1 => builder.surroundings(Cuboid::container(t3([0.0; 3]), t3([side; 3]))),
+        _ => builder.periodic(PeriodicBox::new(t3([0.0; 3]), t3([side; 3]))),
+    };
+    if seed.is_multiple_of(5) {
+        builder = builder.surface(Surface::Rough);
+    }
+    let share = random.random_range(0.1..0.5);
+    for site in 0..sites * sites * sites {
+        if !random.random_bool(share) {
+            continue;
+        }
+        let site = [site % sites, site / sites % sites, site / (sites * sites)];
+        let center = site.map(|k| spacing * (f64::from(k) + 0.5));
+        let velocity = core::array::from_fn(|_| f64::from(random.random_range(-1..2)));
+        builder = builder.sphere(Sphere::new(center).radius(0.5).velocity(velocity));
+    }
+    builder.build().unwrap()
 }
 
 /// Runs both for a number of events, and compares them.
@@ -196,4 +242,5 @@ kinds! {
     in_a_periodic_box: Periodic,
     in_a_narrow_periodic_box: NarrowPeriodic,
     among_periodic_solids: PeriodicSolids,
+    in_step_on_a_lattice: Symmetric,
 }
