@@ -55,7 +55,9 @@ fn measured(world: &mut EventDriven<f64>, collisions: u64) -> [f64; 2] {
 /// Pressure and collision rate of the hard-sphere fluid, to what a second shows.
 #[test]
 fn hard_sphere_fluid() {
-    for (density, z, rate) in [(0.1, 1.23937, 0.81126), (0.5, 3.26870, 7.68082), (0.9, 10.75927, 33.03458)] {
+    for (density, z, rate) in
+        [(0.1, 1.23937, 0.81126), (0.5, 3.26870, 7.68082), (0.9, 10.75927, 33.03458)]
+    {
         let [found_z, found_rate] = measured(&mut fluid(1372, density, 1), 400);
         println!("ρ = {density}: Z = {found_z:.4} for {z}, Γ = {found_rate:.4} for {rate}");
         assert!((found_z / z - 1.0).abs() < 0.01, "ρ = {density}: Z = {found_z}");

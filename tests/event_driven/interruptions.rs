@@ -100,7 +100,8 @@ fn events_tell_the_whole_story() {
         let mut world = world(scene.clone());
         let all = events(&mut world, 5.0);
         let bodies = &scene.bodies;
-        let mut last: Vec<_> = (0..100).map(|k| (bodies.velocity_of(k), bodies.spin_of(k))).collect();
+        let mut last: Vec<_> =
+            (0..100).map(|k| (bodies.velocity_of(k), bodies.spin_of(k))).collect();
         for event in &all {
             assert!(event.normal_impulse > 0.0);
             assert!((event.normal.length() - 1.0).abs() < 1e-14);

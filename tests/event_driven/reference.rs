@@ -61,7 +61,8 @@ impl<'a, T: Real> Reference<'a, T> {
             spin: bodies.spin_of(k),
             last: Met::Nobody,
         };
-        let parts = if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
+        let parts =
+            if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
         let features = parts.iter().enumerate().flat_map(|(part, shape)| {
             shape.features().into_iter().map(move |feature| (feature, part as u32))
         });
@@ -132,7 +133,8 @@ impl<'a, T: Real> Reference<'a, T> {
     fn contacts(&self) -> impl Iterator<Item = Contact<T>> {
         let count = if self.scene.encounters == Encounters::All { self.balls.len() } else { 0 };
         let pairs = (0..count).flat_map(move |a| (0..a).map(move |b| (b, a)));
-        let balls = (0..self.balls.len()).flat_map(|a| (0..self.features.len()).map(move |f| (a, f)));
+        let balls =
+            (0..self.balls.len()).flat_map(|a| (0..self.features.len()).map(move |f| (a, f)));
         let pairs = pairs.filter_map(|(a, b)| Some((self.meeting(a, b)?, (a, true, b))));
         pairs.chain(balls.filter_map(|(a, f)| Some((self.contact(a, f)?, (a, false, f)))))
     }
@@ -143,23 +145,26 @@ impl<'a, T: Real> Reference<'a, T> {
         let have_met = self.balls[a].last == Met::Ball(b) && self.balls[b].last == Met::Ball(a);
         let (a, b) = (&self.balls[a], &self.balls[b]);
         let from = a.since.greater(b.since);
-        let ((position_a, velocity_a), (position_b, velocity_b)) = (self.at(a, from), self.at(b, from));
+        let ((position_a, velocity_a), (position_b, velocity_b)) =
+            (self.at(a, from), self.at(b, from));
         let (offset, relative) = (position_a - position_b, velocity_a - velocity_b);
         let reach = a.radius + b.radius;
-        let times = self.images(offset + relative * (self.now - from)).into_iter().filter_map(|(_, shift)| {
-            let offset = offset - shift;
-            let approach = offset.dot(relative);
-            let discriminant = relative.length_squared() * (reach * reach)
-                - offset.cross(relative).length_squared();
-            if !(approach < T::ZERO && discriminant > T::ZERO) {
-                return None;
-            }
-            let excess = offset.length_squared() - reach * reach;
-            if have_met && excess < reach * reach * T::ratio(1, 1024) {
-                return None;
-            }
-            Some(from + excess.greater(T::ZERO) / (discriminant.sqrt() - approach))
-        });
+        let times = self.images(offset + relative * (self.now - from)).into_iter().filter_map(
+            |(_, shift)| {
+                let offset = offset - shift;
+                let approach = offset.dot(relative);
+                let discriminant = relative.length_squared() * (reach * reach)
+                    - offset.cross(relative).length_squared();
+                if !(approach < T::ZERO && discriminant > T::ZERO) {
+                    return None;
+                }
+                let excess = offset.length_squared() - reach * reach;
+                if have_met && excess < reach * reach * T::ratio(1, 1024) {
+                    return None;
+                }
+                Some(from + excess.greater(T::ZERO) / (discriminant.sqrt() - approach))
+            },
+        );
         times.reduce(T::lesser)
     }
 
@@ -169,9 +174,10 @@ impl<'a, T: Real> Reference<'a, T> {
         let ball = &self.balls[ball];
         let feature = &self.features[feature].0;
         let acceleration = self.has_field.then_some(self.scene.gravity);
-        let middle = self.scene.periodic.map_or(Vec3::ZERO, |space| {
-            (space.lower + space.upper) * T::ratio(1, 2)
-        });
+        let middle = self
+            .scene
+            .periodic
+            .map_or(Vec3::ZERO, |space| (space.lower + space.upper) * T::ratio(1, 2));
         let nearby = self.at(ball, self.now).0 - middle;
         let times = self.images(nearby).into_iter().filter_map(|(_, shift)| {
             let center = ball.position - shift;
@@ -187,8 +193,7 @@ impl<'a, T: Real> Reference<'a, T> {
     fn arrive(&mut self, ball: usize, share: T, last: Met) -> Party<T> {
         let (position, velocity) = self.at(&self.balls[ball], self.now);
         let position = self.scene.periodic.map_or(position, |space| space.wrap(position));
-        self.balls[ball] =
-            Ball { position, velocity, since: self.now, last, ..self.balls[ball] };
+        self.balls[ball] = Ball { position, velocity, since: self.now, last, ..self.balls[ball] };
         let bodies = &self.scene.bodies;
         Party {
             velocity,
@@ -238,8 +243,9 @@ impl<'a, T: Real> Reference<'a, T> {
             partner = Partner::Surroundings(*part);
             let images = self.scene.periodic.map_or(vec![Vec3::ZERO], PeriodicBox::images);
             let ball = &self.balls[a];
-            let clearances =
-                images.into_iter().map(|shift| feature.clearance(ball.position - shift, ball.radius));
+            let clearances = images
+                .into_iter()
+                .map(|shift| feature.clearance(ball.position - shift, ball.radius));
             let nearest = clearances.reduce(|a, b| if b.gap.abs() < a.gap.abs() { b } else { a });
             arm = nearest.unwrap().arm;
             offset = arm;
@@ -300,12 +306,10 @@ fn spacing<T: Real>(scene: &Scene<T>) -> T {
 /// The inside of the containers, or what the bodies and the solids span.
 fn region<T: Real>(scene: &Scene<T>, least: T) -> [Vec3<T>; 2] {
     let parts = if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
-    let each = |f: fn(T, T) -> T, a: Vec3<T>, b: Vec3<T>| {
-        Vec3::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z))
-    };
+    let each =
+        |f: fn(T, T) -> T, a: Vec3<T>, b: Vec3<T>| Vec3::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));
     let insides = parts.iter().filter_map(|shape| shape.interior());
-    let inside = insides
-        .reduce(|[a, b], [c, d]| [each(T::greater, a, c), each(T::lesser, b, d)]);
+    let inside = insides.reduce(|[a, b], [c, d]| [each(T::greater, a, c), each(T::lesser, b, d)]);
     if let Some(inside) = inside {
         return inside;
     }

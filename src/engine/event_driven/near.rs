@@ -114,10 +114,7 @@ pub(super) fn region<T: Real>(
     let all = points.reduce(|[a, b], [c, d]| [lesser(a, c), greater(b, d)]);
     let [lower, upper] = all.unwrap_or([Vec3::ZERO, Vec3::ZERO]);
     let missing = |low: T, high: T| (least - (high - low)).greater(T::ZERO) * T::ratio(1, 2);
-    let missing = Vec3::new(
-        missing(lower.x, upper.x),
-        missing(lower.y, upper.y),
-        missing(lower.z, upper.z),
-    );
+    let missing =
+        Vec3::new(missing(lower.x, upper.x), missing(lower.y, upper.y), missing(lower.z, upper.z));
     Region { lower: lower - missing, upper: upper + missing, ends: Ends::Joined }
 }
