@@ -4,7 +4,7 @@
 use carom::contact::Surface;
 use carom::engine::{EventDriven, Execution, Lanes};
 use carom::real::Real;
-use carom::scene::{Scene, Sphere};
+use carom::scene::{Encounters, Scene, Sphere, Spheres};
 use carom::surroundings::{Cuboid, Feature, FixedSphere, PeriodicBox, Plane, Shape};
 use carom::vec3::Vec3;
 use rand::{RngExt, SeedableRng};
@@ -99,6 +99,8 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
     }
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let is_mixed = random.random_bool(0.5);
+    // Some as small as a hundredth of others.
+    let least: f64 = if random.random_bool(0.3) { 0.005 } else { 0.1 };
     let count = random.random_range(if kind == Kind::NarrowPeriodic { 2..6 } else { 2..31 });
     let sides: [f64; 3] = core::array::from_fn(|_| match kind {
         Kind::NarrowPeriodic => random.random_range(2.05..4.2),
@@ -115,12 +117,18 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
     let has_field = kind == Kind::Floor || random.random_bool(0.4);
     let gravity = if has_field { [0.3, 0.0, -random.random_range(0.1..5.0)] } else { [0.0; 3] };
     let rough = random.random_bool(0.5);
+    let encounters = match random.random_range(0..20) {
+        0 => Encounters::None,
+        1 => Encounters::Surroundings,
+        _ => Encounters::All,
+    };
     let shapes = surroundings(kind, lower, sides, &mut random);
     let features: Vec<Feature<f64>> = shapes.iter().flat_map(Shape::features).collect();
 
     let mut builder = builder::<T>()
         .name(format!("{kind:?} {seed}"))
         .surface(if rough { Surface::Rough } else { Surface::Smooth })
+        .encounters(encounters)
         .gravity(t3(gravity));
     if is_periodic {
         builder = builder.periodic(PeriodicBox::new(t3(lower), t3(upper)));
@@ -130,7 +138,7 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
     }
     let mut placed: Vec<([f64; 3], f64)> = Vec::new();
     for _ in 0..count * 20 {
-        let radius = if is_mixed { random.random_range(0.1..0.5) } else { 0.5 };
+        let radius = if is_mixed { least * (0.5 / least).powf(random.random()) } else { 0.5 };
         let center: [f64; 3] = core::array::from_fn(|k| random.random_range(lower[k]..upper[k]));
         let is_far = |(other, reach): &([f64; 3], f64)| {
             let distance = (0..3).map(|k| {
@@ -189,9 +197,12 @@ fn symmetric<T: Real>(seed: u64) -> Scene<T> {
     builder.build().unwrap()
 }
 
-/// Runs both for a number of events, and compares them.
 fn agree<T: Real>(kind: Kind, seed: u64, most: u64) -> usize {
-    let scene = scene::<T>(kind, seed);
+    same_events(&scene::<T>(kind, seed), seed, most)
+}
+
+/// Runs both for a number of events, and compares them.
+fn same_events<T: Real>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let lanes = LANES[seed as usize % LANES.len()];
     let world =
         || EventDriven::with_execution(scene.clone(), Execution { lanes, threads: 1 }).unwrap();
@@ -199,14 +210,25 @@ fn agree<T: Real>(kind: Kind, seed: u64, most: u64) -> usize {
     first.advance_until(most, 50.0).unwrap();
     // Between two events: which of two roundings an end has is no matter.
     let end = first.time() * (1.0 + 1.0 / 1024.0);
+    // A push may go round for ever among balls that touch.
+    let cap = 2 * most as usize;
     let mut found = Vec::new();
-    world().for_each_event(end, |event| found.push(*event)).unwrap();
-    let mut reference = Reference::new(&scene);
+    let result = world().for_each_event(end, |event| {
+        if found.len() < cap {
+            found.push(*event);
+        }
+    });
+    assert!(result.is_ok() || found.len() == cap, "{}: {result:?}", scene.name);
+    let mut reference = Reference::new(scene);
     for (k, event) in found.iter().enumerate() {
         let expected = reference.next_event(end);
         assert_eq!(Some(*event), expected, "{} {} event {k} of {lanes:?}", scene.name, T::NAME);
     }
-    assert_eq!(reference.next_event(end), None, "{} {}: missed", scene.name, T::NAME);
+    if found.len() < cap {
+        assert_eq!(reference.next_event(end), None, "{} {}: missed", scene.name, T::NAME);
+    } else {
+        println!("{} {}: {result:?}", scene.name, T::NAME);
+    }
     found.len()
 }
 
@@ -214,6 +236,32 @@ fn scenes_agree<T: Real>(kind: Kind) {
     let found: usize = (0..SCENES).map(|seed| agree::<T>(kind, seed, 100)).sum();
     println!("{kind:?} {}: {found} equal events in {SCENES} scenes", T::NAME);
     assert!(found as u64 > SCENES * 10, "{kind:?}: {found} events are too few to compare");
+}
+
+/// Crowds, with many cells and spans of the calendar.
+#[test]
+fn in_a_crowd() {
+    fn crowds<T: Real>() {
+        let crowd = Spheres::random(250).temperature(1.0).spin_temperature(1.0).seed(8);
+        let scenes = [
+            builder::<T>()
+                .name("a gas")
+                .periodic(PeriodicBox::new(t3([0.0; 3]), t3([9.0; 3])))
+                .spheres(crowd.clone().radius(0.5)),
+            builder::<T>()
+                .name("mixed sizes that fall")
+                .surface(Surface::Rough)
+                .gravity(t3([0.0, 0.0, -2.0]))
+                .surroundings(Cuboid::container(t3([0.0; 3]), t3([9.0; 3])))
+                .surroundings(Cuboid::solid(t3([3.0; 3]), t3([5.0; 3])))
+                .spheres(crowd.radius(0.02..=0.6).density(1.0)),
+        ];
+        for (scene, most) in scenes.into_iter().zip([400, 4_000]) {
+            same_events(&scene.build().unwrap(), 0, most);
+        }
+    }
+    crowds::<f32>();
+    crowds::<f64>();
 }
 
 /// Random scenes of each kind and precision.

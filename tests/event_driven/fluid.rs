@@ -66,7 +66,7 @@ fn hard_sphere_fluid() {
 }
 
 /// The same against the independent measurements and their errors, which takes
-/// minutes: `cargo test --release --test event_driven -- --ignored --nocapture`.
+/// minutes: `cargo test --test event_driven -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
 fn hard_sphere_fluid_to_four_digits() {

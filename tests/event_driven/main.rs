@@ -12,6 +12,7 @@ mod reference;
 mod same_bits;
 mod standstill;
 mod trajectories;
+mod units;
 
 #[path = "../common/mod.rs"]
 mod common;
