@@ -256,7 +256,7 @@ fn in_a_crowd() {
                 .surroundings(Cuboid::solid(t3([3.0; 3]), t3([5.0; 3])))
                 .spheres(crowd.radius(0.02..=0.6).density(1.0)),
         ];
-        for (scene, most) in scenes.into_iter().zip([400, 4_000]) {
+        for (scene, most) in scenes.into_iter().zip([300, 1_500]) {
             same_events(&scene.build().unwrap(), 0, most);
         }
     }

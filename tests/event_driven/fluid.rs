@@ -22,7 +22,7 @@ fn lorentz_gas() {
             .surroundings(FixedSphere::solid([0.5; 3], a - radius))
             .spheres(Spheres::random(2000).radius(radius).temperature(1.0).seed(3));
         let mut world = world(scene.build().unwrap());
-        world.advance(400.0).unwrap();
+        world.advance(200.0).unwrap();
         let found = world.mean_free_path().unwrap();
         println!("a = {a}: {found} in {} flights", world.collisions().surroundings);
         assert!((found / exact - 1.0).abs() < 0.01, "a = {a}: {found} for {exact}");

@@ -121,13 +121,15 @@ impl<'a, T: Real> Reference<'a, T> {
         (side / (T::whole(8) * fastest)).lesser((side / fall).sqrt()).lesser(self.period)
     }
 
-    /// The images around the one that is nearest now, in whole boxes.
-    fn images(&self, nearby: Vec3<T>) -> Vec<(Vec3<T>, Vec3<T>)> {
-        let Some(space) = self.scene.periodic else { return vec![(Vec3::ZERO, Vec3::ZERO)] };
-        let turns = space.turns(nearby);
+    /// The shifts to the images around the one that is nearest now.
+    fn images(&self, nearby: Vec3<T>) -> impl Iterator<Item = Vec3<T>> {
+        let space = self.scene.periodic;
+        let turns = space.map_or(Vec3::ZERO, |space| space.turns(nearby));
         let whole = |k: i32| T::whole(k - 1);
-        let steps = (0..27).map(|k| Vec3::new(whole(k % 3), whole(k / 3 % 3), whole(k / 9)));
-        steps.map(|step| (turns + step, space.shift(turns + step))).collect()
+        (0..if space.is_some() { 27 } else { 1 }).map(move |k| {
+            let step = Vec3::new(whole(k % 3), whole(k / 3 % 3), whole(k / 9));
+            space.map_or(Vec3::ZERO, |space| space.shift(turns + step))
+        })
     }
 
     fn contacts(&self) -> impl Iterator<Item = Contact<T>> {
@@ -149,22 +151,19 @@ impl<'a, T: Real> Reference<'a, T> {
             (self.at(a, from), self.at(b, from));
         let (offset, relative) = (position_a - position_b, velocity_a - velocity_b);
         let reach = a.radius + b.radius;
-        let times = self.images(offset + relative * (self.now - from)).into_iter().filter_map(
-            |(_, shift)| {
-                let offset = offset - shift;
-                let approach = offset.dot(relative);
-                let discriminant = relative.length_squared() * (reach * reach)
-                    - offset.cross(relative).length_squared();
-                if !(approach < T::ZERO && discriminant > T::ZERO) {
-                    return None;
-                }
-                let excess = offset.length_squared() - reach * reach;
-                if have_met && excess < reach * reach * T::ratio(1, 1024) {
-                    return None;
-                }
-                Some(from + excess.greater(T::ZERO) / (discriminant.sqrt() - approach))
-            },
-        );
+        let nearby = offset + relative * (self.now - from);
+        let times = self.images(nearby).filter_map(|shift| {
+            let offset = offset - shift;
+            let approach = offset.dot(relative);
+            let discriminant = relative.length_squared() * (reach * reach)
+                - offset.cross(relative).length_squared();
+            let meets = approach < T::ZERO && discriminant > T::ZERO;
+            let excess = offset.length_squared() - reach * reach;
+            // Two that have just met do not meet again, whatever rounding says.
+            let is_over = have_met && excess < reach * reach * T::ratio(1, 1024);
+            let wait = excess.greater(T::ZERO) / (discriminant.sqrt() - approach);
+            (meets && !is_over).then_some(from + wait)
+        });
         times.reduce(T::lesser)
     }
 
@@ -179,7 +178,7 @@ impl<'a, T: Real> Reference<'a, T> {
             .periodic
             .map_or(Vec3::ZERO, |space| (space.lower + space.upper) * T::ratio(1, 2));
         let nearby = self.at(ball, self.now).0 - middle;
-        let times = self.images(nearby).into_iter().filter_map(|(_, shift)| {
+        let times = self.images(nearby).filter_map(|shift| {
             let center = ball.position - shift;
             let gap = feature.clearance(center, ball.radius).gap.abs();
             let is_here = self.scene.periodic.is_none() || gap < self.spacing * T::ratio(1, 1024);
