@@ -86,7 +86,13 @@ impl<T: Real> Calendar<T> {
         }
         // Among the present ones, which are few.
         let mut at = self.now.len();
-        while at > 0 && compared(self.now[at - 1], turn, &order) == Ordering::Less {
+        while at > 0 {
+            if self.now[at - 1] == turn {
+                // Its turn has the same time as before and another rank.
+                self.now.remove(at - 1);
+            } else if compared(self.now[at - 1], turn, &order) != Ordering::Less {
+                break;
+            }
             at -= 1;
         }
         self.now.insert(at, turn);

@@ -15,6 +15,11 @@ use crate::real::Real;
 use crate::surroundings::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
+/// What speeds by lengths may be, so that their squares are far from both ends
+/// of the range of an `f32`.
+const LEAST_PRODUCT: f64 = 1e-15;
+const MOST_PRODUCT: f64 = 1e18;
+
 /// The bodies in coarse precision.
 #[derive(Debug)]
 pub(super) struct Coarse<C: Real> {
@@ -48,10 +53,6 @@ fn coarse<T: Real, C: Real>(value: T) -> C {
     C::from_f64(value.to_f64())
 }
 
-/// Between these the scene's products of four lengths and speeds must be, lest
-/// they leave the range of `f32`.
-const SQUARES: [f64; 2] = [1e-12, 1e30];
-
 fn coarse_vector<T: Real, C: Real>(vector: Vec3<T>) -> Vec3<C> {
     Vec3::new(coarse(vector.x), coarse(vector.y), coarse(vector.z))
 }
@@ -79,10 +80,11 @@ impl<C: Real> Coarse<C> {
         let ways = 16.0 * epsilon * (extent + speed * period);
         let products = 16.0 * epsilon * neighbourhood * neighbourhood / reach;
         let margin = ways + products;
-        // The greatest product is that of the vector product's square.
-        let greatest = (neighbourhood * speed).powi(2);
-        let is_in_range = (SQUARES[0]..SQUARES[1]).contains(&greatest);
-        self.is_useful = size_of::<C>() < size_of::<T>() && margin < reach / 32.0 && is_in_range;
+        // The products of a meeting are squares of a speed by a length.
+        let most = speed * (neighbourhood + speed * period);
+        let is_in_range = speed * reach > LEAST_PRODUCT && most < MOST_PRODUCT;
+        let is_finer = size_of::<C>() < size_of::<T>();
+        self.is_useful = is_finer && is_in_range && margin < reach / 32.0;
         self.margin = C::from_f64(margin);
         self.slack = C::from_f64(4.0 * speed * margin);
         let useful = if self.is_useful { records } else { &[] };

@@ -30,10 +30,12 @@ impl<T: Real> EventDriven<T> {
         let at = place as usize;
         let flight = self.records[at].flight();
         let partner = PartnerCode::feature(feature);
-        let mut center = flight.position - self.images[image as usize];
+        let mut center = flight.position;
         if let Some(space) = self.periodic {
+            // In one step: an image has the same bits from every cell.
+            let image = space.turns(self.images[image as usize]);
             let turns = self.cells.turns(self.agendas[at].cell);
-            center = center - space.shift(turns);
+            center = center - space.shift(turns + image);
         }
         let feature = &self.features[feature as usize];
         // In a periodic box it has left one image only.

@@ -1,0 +1,324 @@
+//! The event-driven engine as a program of a page: at every event all pairs, all
+//! their images and all features are tried anew. No cells, no calendar, nothing
+//! kept but the flights.
+
+use carom::bodies::PerBody;
+use carom::contact::{Impulse, Party, Surface, collide};
+use carom::engine::{Event, Partner};
+use carom::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
+use carom::observe::CompensatedSum;
+use carom::real::Real;
+use carom::scene::{Encounters, Scene};
+use carom::surroundings::{Feature, PeriodicBox, Space};
+use carom::vec3::Vec3;
+
+/// What a ball has met last.
+#[derive(Clone, Copy, PartialEq)]
+enum Met {
+    Nobody,
+    Ball(usize),
+    Feature(usize),
+}
+
+/// A ball in flight since its motion last changed.
+#[derive(Clone, Copy)]
+struct Ball<T> {
+    position: Vec3<T>,
+    velocity: Vec3<T>,
+    since: T,
+    radius: T,
+    spin: Vec3<T>,
+    last: Met,
+}
+
+/// A contact: when, and its rank among those of equal times. The lesser ball
+/// comes first, and its contacts with features before those with balls.
+type Contact<T> = (T, (usize, bool, usize));
+
+pub struct Reference<'a, T: Real> {
+    scene: &'a Scene<T>,
+    has_field: bool,
+    /// Features, and the parts of the surroundings that they belong to.
+    features: Vec<(Feature<T>, u32)>,
+    balls: Vec<Ball<T>>,
+    spacing: T,
+    origin: CompensatedSum,
+    period: T,
+    too_fast: T,
+    /// Time since the period's start.
+    now: T,
+    is_too_fast: bool,
+}
+
+impl<'a, T: Real> Reference<'a, T> {
+    pub fn new(scene: &'a Scene<T>) -> Self {
+        let bodies = &scene.bodies;
+        let ball = |k: usize| Ball {
+            position: bodies.position_of(k),
+            velocity: bodies.velocity_of(k),
+            since: T::ZERO,
+            radius: bodies.radius.of(k),
+            spin: bodies.spin_of(k),
+            last: Met::Nobody,
+        };
+        let parts =
+            if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
+        let features = parts.iter().enumerate().flat_map(|(part, shape)| {
+            shape.features().into_iter().map(move |feature| (feature, part as u32))
+        });
+        let mut reference = Self {
+            scene,
+            has_field: scene.gravity != Vec3::ZERO,
+            features: features.collect(),
+            balls: (0..bodies.len()).map(ball).collect(),
+            spacing: spacing(scene),
+            origin: CompensatedSum::default(),
+            period: T::ZERO,
+            too_fast: T::ZERO,
+            now: T::ZERO,
+            is_too_fast: false,
+        };
+        reference.begin_period(T::ZERO);
+        reference
+    }
+
+    /// The next collision, if it comes up to a time.
+    pub fn next_event(&mut self, until: f64) -> Option<Event<T>> {
+        if self.is_too_fast {
+            self.begin_period(self.now);
+        }
+        loop {
+            let window = self.window();
+            let contacts = self.contacts().filter(|contact| contact.0 < self.period);
+            let first = contacts.reduce(|a, b| if b < a { b } else { a });
+            match first {
+                Some((time, with)) if time <= self.now + window => {
+                    self.now = time;
+                    let time = self.origin.value() + time.to_f64();
+                    return (time <= until).then(|| self.happen(with));
+                }
+                _ if self.origin.value() + self.now.to_f64() > until => return None,
+                _ if self.now + window < self.period => self.now = self.now + window,
+                _ => self.begin_period(self.period),
+            }
+        }
+    }
+
+    /// Centre and velocity at a time.
+    fn at(&self, ball: &Ball<T>, time: T) -> (Vec3<T>, Vec3<T>) {
+        let step = if self.has_field { VelocityVerlet::step::<T> } else { Coasting::step::<T> };
+        step(ball.position, ball.velocity, self.scene.gravity, time - ball.since)
+    }
+
+    /// A time in which no two balls move by more than half a periodic box.
+    fn window(&self) -> T {
+        let Some(space) = self.scene.periodic else { return self.period };
+        let [x, y, z] = space.sides().to_array();
+        let side = x.lesser(y).lesser(z);
+        let speeds = self.balls.iter().map(|ball| self.at(ball, self.now).1.length());
+        let fastest = speeds.fold(T::ZERO, |most, speed| speed.greater(most));
+        let fall = T::whole(4) * self.scene.gravity.length();
+        (side / (T::whole(8) * fastest)).lesser((side / fall).sqrt()).lesser(self.period)
+    }
+
+    /// The shifts to the images around the one that is nearest now.
+    fn images(&self, nearby: Vec3<T>) -> impl Iterator<Item = Vec3<T>> {
+        let space = self.scene.periodic;
+        let turns = space.map_or(Vec3::ZERO, |space| space.turns(nearby));
+        let whole = |k: i32| T::whole(k - 1);
+        (0..if space.is_some() { 27 } else { 1 }).map(move |k| {
+            let step = Vec3::new(whole(k % 3), whole(k / 3 % 3), whole(k / 9));
+            space.map_or(Vec3::ZERO, |space| space.shift(turns + step))
+        })
+    }
+
+    fn contacts(&self) -> impl Iterator<Item = Contact<T>> {
+        let count = if self.scene.encounters == Encounters::All { self.balls.len() } else { 0 };
+        let pairs = (0..count).flat_map(move |a| (0..a).map(move |b| (b, a)));
+        let balls =
+            (0..self.balls.len()).flat_map(|a| (0..self.features.len()).map(move |f| (a, f)));
+        let pairs = pairs.filter_map(|(a, b)| Some((self.meeting(a, b)?, (a, true, b))));
+        pairs.chain(balls.filter_map(|(a, f)| Some((self.contact(a, f)?, (a, false, f)))))
+    }
+
+    /// When two balls meet: worked out from their states where the later of the
+    /// two flights starts.
+    fn meeting(&self, a: usize, b: usize) -> Option<T> {
+        let have_met = self.balls[a].last == Met::Ball(b) && self.balls[b].last == Met::Ball(a);
+        let (a, b) = (&self.balls[a], &self.balls[b]);
+        let from = a.since.greater(b.since);
+        let ((position_a, velocity_a), (position_b, velocity_b)) =
+            (self.at(a, from), self.at(b, from));
+        let (offset, relative) = (position_a - position_b, velocity_a - velocity_b);
+        let reach = a.radius + b.radius;
+        let nearby = offset + relative * (self.now - from);
+        let times = self.images(nearby).filter_map(|shift| {
+            let offset = offset - shift;
+            let approach = offset.dot(relative);
+            let discriminant = relative.length_squared() * (reach * reach)
+                - offset.cross(relative).length_squared();
+            let meets = approach < T::ZERO && discriminant > T::ZERO;
+            let excess = offset.length_squared() - reach * reach;
+            // Two that have just met do not meet again, whatever rounding says.
+            let is_over = have_met && excess < reach * reach * T::ratio(1, 1024);
+            let wait = excess.greater(T::ZERO) / (discriminant.sqrt() - approach);
+            (meets && !is_over).then_some(from + wait)
+        });
+        times.reduce(T::lesser)
+    }
+
+    /// When a ball comes to a feature.
+    fn contact(&self, ball: usize, feature: usize) -> Option<T> {
+        let is_last = self.balls[ball].last == Met::Feature(feature);
+        let ball = &self.balls[ball];
+        let feature = &self.features[feature].0;
+        let acceleration = self.has_field.then_some(self.scene.gravity);
+        let middle = self
+            .scene
+            .periodic
+            .map_or(Vec3::ZERO, |space| (space.lower + space.upper) * T::ratio(1, 2));
+        let nearby = self.at(ball, self.now).0 - middle;
+        let times = self.images(nearby).filter_map(|shift| {
+            let center = ball.position - shift;
+            let gap = feature.clearance(center, ball.radius).gap.abs();
+            let is_here = self.scene.periodic.is_none() || gap < self.spacing * T::ratio(1, 1024);
+            let is_leaving = is_last && is_here;
+            feature.contact_time(center, ball.velocity, acceleration, ball.radius, is_leaving)
+        });
+        times.reduce(T::lesser).map(|wait| ball.since + wait)
+    }
+
+    /// Ends the flight of a ball, and gives it as a party of a contact.
+    fn arrive(&mut self, ball: usize, share: T, last: Met) -> Party<T> {
+        let (position, velocity) = self.at(&self.balls[ball], self.now);
+        let position = self.scene.periodic.map_or(position, |space| space.wrap(position));
+        self.balls[ball] = Ball { position, velocity, since: self.now, last, ..self.balls[ball] };
+        let bodies = &self.scene.bodies;
+        Party {
+            velocity,
+            spin: self.balls[ball].spin,
+            inverse_mass: T::ONE / bodies.mass.of(ball),
+            inverse_inertia: T::ONE / bodies.inertia.of(ball),
+            share,
+        }
+    }
+
+    fn depart(&mut self, ball: usize, party: &Party<T>) {
+        self.balls[ball].velocity = party.velocity;
+        self.balls[ball].spin = party.spin;
+        self.is_too_fast |= party.velocity.length_squared() > self.too_fast;
+    }
+
+    fn collide(&self, offset: Vec3<T>, a: &mut Party<T>, b: &mut Party<T>) -> Impulse<T> {
+        match self.scene.surface {
+            Surface::Smooth => collide::<T, false>(offset, a, b),
+            Surface::Rough => collide::<T, true>(offset, a, b),
+        }
+    }
+
+    /// What happens at a contact now.
+    fn happen(&mut self, (a, is_pair, b): (usize, bool, usize)) -> Event<T> {
+        let (offset, arm, impulse, partner);
+        if is_pair {
+            let reach = self.balls[a].radius + self.balls[b].radius;
+            let share = |radius: T| match self.scene.bodies.radius {
+                PerBody::Same(_) => T::ratio(1, 2),
+                PerBody::Each(_) => radius / reach,
+            };
+            let (share_a, share_b) = (share(self.balls[a].radius), share(self.balls[b].radius));
+            let mut party_a = self.arrive(a, share_a, Met::Ball(b));
+            let mut party_b = self.arrive(b, share_b, Met::Ball(a));
+            let difference = self.balls[a].position - self.balls[b].position;
+            offset = self.scene.periodic.map_or(difference, |space| space.nearest(difference));
+            arm = offset * share_a;
+            impulse = self.collide(offset, &mut party_a, &mut party_b);
+            self.depart(a, &party_a);
+            self.depart(b, &party_b);
+            let Party { velocity, spin, .. } = party_b;
+            partner = Partner::Body { index: b as u32, velocity, spin };
+        } else {
+            let mut party = self.arrive(a, T::ONE, Met::Feature(b));
+            let (feature, part) = &self.features[b];
+            partner = Partner::Surroundings(*part);
+            let images = self.scene.periodic.map_or(vec![Vec3::ZERO], PeriodicBox::images);
+            let ball = &self.balls[a];
+            let clearances = images
+                .into_iter()
+                .map(|shift| feature.clearance(ball.position - shift, ball.radius));
+            let nearest = clearances.reduce(|a, b| if b.gap.abs() < a.gap.abs() { b } else { a });
+            arm = nearest.unwrap().arm;
+            offset = arm;
+            impulse = self.collide(arm, &mut party, &mut Party::immovable());
+            self.depart(a, &party);
+        }
+        let ball = &self.balls[a];
+        Event {
+            time: self.origin.value() + self.now.to_f64(),
+            a: a as u32,
+            partner,
+            point: ball.position - arm,
+            normal: offset * (T::ONE / offset.length()),
+            normal_impulse: impulse.normal.length(),
+            tangential_impulse: impulse.tangential,
+            velocity: ball.velocity,
+            spin: ball.spin,
+        }
+    }
+
+    /// Where a period of time begins every flight starts anew. It is the power
+    /// of two below the time for eight mean distances at the mean speed.
+    fn begin_period(&mut self, end: T) {
+        for k in 0..self.balls.len() {
+            let (position, velocity) = self.at(&self.balls[k], end);
+            let position = self.scene.periodic.map_or(position, |space| space.wrap(position));
+            self.balls[k] = Ball { position, velocity, since: T::ZERO, ..self.balls[k] };
+        }
+        self.origin.add(end.to_f64());
+        self.now = T::ZERO;
+        self.is_too_fast = false;
+        let squares = || self.balls.iter().map(|ball| ball.velocity.length_squared().to_f64());
+        let mean = squares().sum::<f64>() / self.balls.len() as f64;
+        let most = squares().fold(0.0, f64::max);
+        let spacing = self.spacing.to_f64();
+        let fallen = self.scene.gravity.length().to_f64() * spacing;
+        let speed = mean.max(most / 64.0).max(fallen).sqrt();
+        let flight = (8.0 * spacing / speed).clamp(1e-25, 1e25);
+        self.period = T::from_f64(flight.log2().floor().exp2());
+        self.too_fast = T::from_f64((16.0 * speed * (16.0 * speed)).max(1e-30));
+    }
+}
+
+/// Mean distance of the bodies, or the greatest diameter if that is more.
+fn spacing<T: Real>(scene: &Scene<T>) -> T {
+    let bodies = &scene.bodies;
+    let radius = bodies.radius.greatest();
+    let reach = radius + radius;
+    let [lower, upper] = match scene.periodic {
+        Some(space) => [space.lower, space.upper],
+        None => region(scene, radius * T::whole(9)),
+    };
+    let sides = (upper - lower).to_array().map(|side| side.greater(reach).to_f64());
+    let mean = (sides.iter().product::<f64>() / bodies.len() as f64).cbrt();
+    T::from_f64(mean).greater(reach)
+}
+
+/// The inside of the containers, or what the bodies and the solids span.
+fn region<T: Real>(scene: &Scene<T>, least: T) -> [Vec3<T>; 2] {
+    let parts = if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
+    let each =
+        |f: fn(T, T) -> T, a: Vec3<T>, b: Vec3<T>| Vec3::new(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));
+    let insides = parts.iter().filter_map(|shape| shape.interior());
+    let inside = insides.reduce(|[a, b], [c, d]| [each(T::greater, a, c), each(T::lesser, b, d)]);
+    if let Some(inside) = inside {
+        return inside;
+    }
+    let features = parts.iter().flat_map(|shape| shape.features());
+    let solids = features.filter_map(|feature| feature.bounds());
+    let centers = (0..scene.bodies.len()).map(|k| [scene.bodies.position_of(k); 2]);
+    let all = solids.chain(centers);
+    let [lower, upper] =
+        all.reduce(|[a, b], [c, d]| [each(T::lesser, a, c), each(T::greater, b, d)]).unwrap();
+    let half = |a: T, _: T| a.greater(T::ZERO) * T::ratio(1, 2);
+    let missing = each(half, Vec3::new(least, least, least) - (upper - lower), Vec3::ZERO);
+    [lower - missing, upper + missing]
+}
