@@ -56,6 +56,14 @@ impl<T: Real> PerBody<T> {
         }
     }
 
+    /// The bytes that the figures hold.
+    pub(crate) fn bytes(&self) -> usize {
+        match self {
+            Self::Same(_) => 0,
+            Self::Each(column) => column.bytes(),
+        }
+    }
+
     /// The greatest value of `len` bodies.
     #[must_use]
     pub fn greatest(&self) -> T {
@@ -158,6 +166,16 @@ impl<T: Real> Bodies<T> {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The bytes that the columns hold.
+    pub(crate) fn bytes(&self) -> usize {
+        let state = self.position.iter().chain(&self.velocity).chain(&self.spin);
+        let orientation = self.orientation.iter().flat_map(|rows| rows.iter());
+        state.chain(orientation).map(Column::bytes).sum::<usize>()
+            + self.radius.bytes()
+            + self.mass.bytes()
+            + self.inertia.bytes()
     }
 
     /// Centre of body `index`.

@@ -18,36 +18,32 @@ mod collide;
 mod crossing;
 mod features;
 mod flight;
+mod look;
 mod meeting;
 mod near;
 mod period;
 mod search;
+mod turns;
 
-use super::plan::{Plan, Turning};
+use super::plan::Plan;
 use super::tallies::Tallies;
 use super::{Collisions, EngineError, EngineKind, Event, Execution, Listener};
 use crate::bodies::{Bodies, PerBody};
-use crate::column::Column;
 use crate::lane::Lane;
 use crate::mat3::Mat3;
-use crate::motion::integrator::{Coasting, VelocityVerlet};
-use crate::motion::rotation::turned;
-use crate::observe::{CompensatedSum, Energy};
+use crate::observe::CompensatedSum;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space};
 use crate::vec3::Vec3;
-use agenda::{Agenda, Mark, Next};
-use calendar::{Calendar, Turn};
+use agenda::{Agenda, Mark};
+use calendar::Calendar;
 use cells::Cells;
 use coarse::Coarse;
 use flight::Record;
 use meeting::Meetings;
 use near::Near;
-use search::{Search, rank};
-
-/// Turns that may pass while time stands still, for scenes of few bodies.
-const PATIENCE: u64 = 1 << 20;
+use search::{Search, further, searcher};
 
 /// A scene in motion, from collision to collision.
 ///
@@ -84,13 +80,15 @@ pub struct EventDriven<T: Real> {
     records: Vec<Record<T>>,
     agendas: Vec<Agenda<T>>,
     marks: Vec<Mark>,
+    /// Where contacts change spins: those of the bodies.
     spins: Vec<Vec3<T>>,
     /// Where contacts change spins: orientations, and since when they are true.
     turned: Vec<(Mat3<T>, T)>,
     /// The scene's index of the body at each place.
     index: Vec<u32>,
 
-    /// Masses, inertia and radii by index, and the start's orientations.
+    /// Masses, inertia and radii by index, and the start's spins and orientations
+    /// where they are not above. Centres and velocities are in the records.
     bodies: Bodies<T>,
     inverse_mass: PerBody<T>,
     inverse_inertia: PerBody<T>,
@@ -225,60 +223,6 @@ impl<T: Real> EventDriven<T> {
         Ok(world)
     }
 
-    /// What the scene needs.
-    #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
-    }
-
-    /// Time since the start.
-    #[must_use]
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// The energy of all bodies now.
-    #[must_use]
-    pub fn energy(&self) -> Energy {
-        Energy::of(&self.bodies(), self.gravity)
-    }
-
-    /// Collisions since the start.
-    #[must_use]
-    pub fn collisions(&self) -> Collisions {
-        self.collisions
-    }
-
-    /// The sum of all impulses of the surroundings on the bodies since the
-    /// start, mass × length per time.
-    #[must_use]
-    pub fn impulse_from_surroundings(&self) -> [f64; 3] {
-        self.tallies.impulse()
-    }
-
-    /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
-    /// length² per time: the collisions' part of the virial pressure.
-    #[must_use]
-    pub fn virial(&self) -> f64 {
-        self.tallies.virial()
-    }
-
-    /// Mean length of the flights between collisions, those under way counted
-    /// up to now: the sum of all ways over the number of their ends. `None`
-    /// before the first collision. In a field the ways are taken as straight.
-    #[must_use]
-    pub fn mean_free_path(&self) -> Option<f64> {
-        let ends = 2 * self.collisions.pairs + self.collisions.surroundings;
-        let now = self.now();
-        let under_way: CompensatedSum = (0..self.records.len())
-            .map(|place| {
-                let flight = self.records[place].flight();
-                (flight.velocity.length() * (now - flight.since)).to_f64()
-            })
-            .collect();
-        (ends > 0).then(|| (self.tallies.path() + under_way.value()) / ends as f64)
-    }
-
     /// Lets time pass, and handles all events up to its end, which is included.
     ///
     /// Two advances are one, bit by bit: to stop in between changes nothing.
@@ -391,192 +335,4 @@ impl<T: Real> EventDriven<T> {
         }
     }
 
-    /// Sees to it that time advances.
-    #[inline(always)]
-    fn check_progress(&mut self, turn: Turn<T>) -> Result<(), EngineError> {
-        if turn.time > self.progress {
-            self.progress = turn.time + self.period * (T::EPSILON * T::whole(64));
-            self.standstill = 0;
-            return Ok(());
-        }
-        self.standstill += 1;
-        if self.standstill <= PATIENCE + 64 * self.records.len() as u64 {
-            return Ok(());
-        }
-        self.time = self.origin.value() + turn.time.to_f64();
-        let (events, time) = (self.standstill, self.time);
-        Err(EngineError::Stalled { time, events, body: self.index[turn.place as usize] })
-    }
-
-    /// Now, since the period's start.
-    fn now(&self) -> T {
-        T::from_f64(self.time - self.origin.value())
-    }
-
-    #[inline(always)]
-    fn next_turn(&mut self) -> Option<Turn<T>> {
-        let (agendas, index) = (&self.agendas, &self.index);
-        self.calendar.next(
-            |turn| agendas[turn.place as usize].next_time() == turn.time,
-            |a, b| order(agendas, index, a).cmp(&order(agendas, index, b)),
-        )
-    }
-
-    /// Enters the next turn of the body at a place.
-    #[inline(always)]
-    fn enter(&mut self, place: u32) {
-        let time = self.agendas[place as usize].next_time();
-        if time < self.period {
-            let (agendas, index) = (&self.agendas, &self.index);
-            self.calendar.enter(Turn { time, place }, |a, b| {
-                order(agendas, index, a).cmp(&order(agendas, index, b))
-            });
-        }
-    }
-
-    #[inline(always)]
-    fn take_turn(&mut self, turn: Turn<T>, on_event: &mut Listener<'_, T>) {
-        let Turn { time, place } = turn;
-        self.turns += 1;
-        match self.agendas[place as usize].next() {
-            Next::LeavesCell => self.cross(place, time),
-            Next::Searches => {
-                self.searches += 1;
-                self.search(place, time);
-            }
-            Next::Meets(expected) => match expected.partner.decoded() {
-                Err(feature) => {
-                    self.collide_with_feature(place, feature, time, on_event);
-                    return;
-                }
-                Ok(other) if self.marks[other as usize].changes == expected.changes => {
-                    self.collide_pair(place, other, time, on_event);
-                    return;
-                }
-                Ok(_) => self.agendas[place as usize].drop_first(),
-            },
-        }
-        self.enter(place);
-    }
-
-    /// Numbers that tell what the engine does: pairs tried, crossings of cells,
-    /// searches anew.
-    #[doc(hidden)]
-    pub fn work(&self) -> [u64; 4] {
-        [self.tried, self.crossings, self.searches, self.screened]
-    }
-
-    /// The bodies now, in the scene's order.
-    #[must_use]
-    pub fn bodies(&self) -> Bodies<T> {
-        let len = self.records.len();
-        let mut bodies = self.bodies.clone();
-        let now = self.now();
-        let tracks = self.plan.turning == Turning::FromLastContact;
-        if tracks || self.plan.turning == Turning::FromStart {
-            let rows = Mat3::<T>::IDENTITY.rows();
-            bodies
-                .orientation
-                .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
-        }
-        for place in 0..len {
-            let at = self.index[place] as usize;
-            let (position, velocity) = self.state_of(place, now);
-            let position = self.periodic.map_or(position, |space| space.wrap(position));
-            let spin = self.spins[place];
-            for k in 0..3 {
-                bodies.position[k][at] = position.to_array()[k];
-                bodies.velocity[k][at] = velocity.to_array()[k];
-                bodies.spin[k][at] = spin.to_array()[k];
-            }
-            let orientation = if tracks {
-                let (orientation, since) = self.turned[place];
-                turned(orientation, spin, now - since)
-            } else {
-                turned(self.bodies.orientation_of(at), spin, T::from_f64(self.time))
-            };
-            if let Some(rows) = &mut bodies.orientation {
-                for (column, element) in rows.iter_mut().zip(orientation.rows()) {
-                    column[at] = element;
-                }
-            }
-        }
-        bodies
-    }
-
-    /// Centre and velocity of the body at a place, at a time of this period.
-    #[inline(always)]
-    fn state_of(&self, place: usize, time: T) -> (Vec3<T>, Vec3<T>) {
-        let flight = self.records[place].flight();
-        if self.plan.has_field {
-            flight.at::<VelocityVerlet>(time, self.gravity)
-        } else {
-            flight.at::<Coasting>(time, self.gravity)
-        }
-    }
-
-    /// The bytes of memory that the engine holds.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.records.capacity() * size_of::<Record<T>>()
-            + self.agendas.capacity() * size_of::<Agenda<T>>()
-            + self.marks.capacity() * size_of::<Mark>()
-            + self.spins.capacity() * size_of::<Vec3<T>>()
-            + self.turned.capacity() * size_of::<(Mat3<T>, T)>()
-            + self.index.capacity() * size_of::<u32>()
-            + self.coarse.bytes()
-            + self.cells.bytes()
-            + self.calendar.bytes()
-            + self.near.bytes()
-    }
-}
-
-/// The order of turns at equal times: what is no collision first, so that all
-/// collisions of that time are known before one happens.
-fn order<T: Real>(agendas: &[Agenda<T>], index: &[u32], place: u32) -> Option<(u32, bool, u32)> {
-    match agendas[place as usize].next() {
-        Next::Meets(expected) => Some(rank(index, place, expected.partner)),
-        _ => None,
-    }
-}
-
-/// The search of a plan.
-fn searcher<T: Real>(plan: &Plan, is_periodic: bool) -> Search<T> {
-    type Pack4<T> = <<T as Real>::Coarse as Real>::Pack4;
-    type Pack8<T> = <<T as Real>::Coarse as Real>::Pack8;
-    type Pack16<T> = <<T as Real>::Coarse as Real>::Pack16;
-    match (plan.gather_lanes, plan.sweep_lanes) {
-        (1, _) => searcher_in::<T, T, T::Coarse>(plan, is_periodic),
-        (4, 4) => searcher_in::<T, T::Pack4, Pack4<T>>(plan, is_periodic),
-        (8, 8) => searcher_in::<T, T::Pack8, Pack8<T>>(plan, is_periodic),
-        (4, _) => searcher_in::<T, T::Pack4, Pack16<T>>(plan, is_periodic),
-        (_, _) => searcher_in::<T, T::Pack8, Pack16<T>>(plan, is_periodic),
-    }
-}
-
-fn searcher_in<T, L, C>(plan: &Plan, is_periodic: bool) -> Search<T>
-where
-    T: Real,
-    L: Lane<Scalar = T>,
-    C: Lane<Scalar = T::Coarse>,
-{
-    match (plan.has_field, is_periodic) {
-        (false, false) => EventDriven::search_open::<L, C, Coasting>,
-        (false, true) => EventDriven::search_periodic::<L, C, Coasting>,
-        (true, false) => EventDriven::search_open::<L, C, VelocityVerlet>,
-        (true, true) => EventDriven::search_periodic::<L, C, VelocityVerlet>,
-    }
-}
-
-/// The images of a pair that can be near at once.
-fn further<T: Real, R: Real>(cells: &Cells<T>) -> Vec<Vec3<R>> {
-    let along = |axis: usize| if cells.is_narrow(axis) { -1..=1 } else { 0..=0 };
-    let mut further = Vec::new();
-    for z in along(2) {
-        for y in along(1) {
-            let whole = R::whole;
-            further.extend(along(0).map(|x| Vec3::new(whole(x), whole(y), whole(z))));
-        }
-    }
-    further
 }

@@ -50,7 +50,7 @@ impl<T: Real> EventDriven<T> {
             let partner = Partner::Body {
                 index: self.index[b],
                 velocity: party_b.velocity,
-                spin: self.spins[b],
+                spin: self.spin_of(b),
             };
             on_event(&self.event(a, time, partner, offset * share_a, offset, &impulse));
         }
@@ -181,7 +181,7 @@ impl<T: Real> EventDriven<T> {
             normal_impulse: impulse.normal.length(),
             tangential_impulse: impulse.tangential,
             velocity: flight.velocity,
-            spin: self.spins[place],
+            spin: self.spin_of(place),
         }
     }
 }

@@ -8,6 +8,7 @@ use super::EventDriven;
 use super::agenda::{Agenda, Mark, PartnerCode};
 use super::coarse::Scales;
 use super::flight::{Flight, Record};
+use crate::column::Column;
 use crate::engine::plan::Turning;
 use crate::motion::rotation::turned;
 use crate::real::Real;
@@ -42,9 +43,15 @@ impl<T: Real> EventDriven<T> {
             radius: bodies.radius.of(index),
         };
         self.records = (0..len).map(|index| Record::new(flight(index))).collect();
-        self.spins = (0..len).map(|index| bodies.spin_of(index)).collect();
         if self.plan.turning == Turning::FromLastContact {
+            self.spins = (0..len).map(|index| bodies.spin_of(index)).collect();
             self.turned = (0..len).map(|index| (bodies.orientation_of(index), T::ZERO)).collect();
+        }
+        // What is kept by place is kept once.
+        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
+        (self.bodies.position, self.bodies.velocity) = (nothing(), nothing());
+        if !self.spins.is_empty() {
+            (self.bodies.spin, self.bodies.orientation) = (nothing(), None);
         }
         self.marks = vec![Mark { changes: 0, last: PartnerCode::NONE }; len];
         self.begin_period(T::ZERO);
@@ -148,9 +155,9 @@ impl<T: Real> EventDriven<T> {
         let records = &self.records;
         let from = |place: &(u32, u32, u32)| place.2 as usize;
         self.records = order.iter().map(|place| records[from(place)]).collect();
-        self.spins = order.iter().map(|place| self.spins[from(place)]).collect();
         self.index = order.iter().map(|place| place.1).collect();
         if !self.turned.is_empty() {
+            self.spins = order.iter().map(|place| self.spins[from(place)]).collect();
             self.turned = order.iter().map(|place| self.turned[from(place)]).collect();
         }
         self.marks = order.iter().map(|place| self.marks[from(place)]).collect();

@@ -2,10 +2,12 @@
 
 use super::EventDriven;
 use super::agenda::{Expected, PartnerCode};
+use super::cells::Cells;
 use super::flight::Flight;
 use super::meeting::{TOGETHER, meeting};
 use crate::lane::Lane;
-use crate::motion::integrator::FlightStep;
+use crate::engine::plan::Plan;
+use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use crate::real::Real;
 use crate::surroundings::{OpenSpace, Space};
 use crate::vec3::Vec3;
@@ -177,4 +179,45 @@ pub(super) fn rank(index: &[u32], place: u32, partner: PartnerCode) -> (u32, boo
         }
         Err(feature) => (own, false, feature),
     }
+}
+
+/// The search of a plan.
+pub(super) fn searcher<T: Real>(plan: &Plan, is_periodic: bool) -> Search<T> {
+    type Pack4<T> = <<T as Real>::Coarse as Real>::Pack4;
+    type Pack8<T> = <<T as Real>::Coarse as Real>::Pack8;
+    type Pack16<T> = <<T as Real>::Coarse as Real>::Pack16;
+    match (plan.gather_lanes, plan.sweep_lanes) {
+        (1, _) => searcher_in::<T, T, T::Coarse>(plan, is_periodic),
+        (4, 4) => searcher_in::<T, T::Pack4, Pack4<T>>(plan, is_periodic),
+        (8, 8) => searcher_in::<T, T::Pack8, Pack8<T>>(plan, is_periodic),
+        (4, _) => searcher_in::<T, T::Pack4, Pack16<T>>(plan, is_periodic),
+        (_, _) => searcher_in::<T, T::Pack8, Pack16<T>>(plan, is_periodic),
+    }
+}
+
+fn searcher_in<T, L, C>(plan: &Plan, is_periodic: bool) -> Search<T>
+where
+    T: Real,
+    L: Lane<Scalar = T>,
+    C: Lane<Scalar = T::Coarse>,
+{
+    match (plan.has_field, is_periodic) {
+        (false, false) => EventDriven::search_open::<L, C, Coasting>,
+        (false, true) => EventDriven::search_periodic::<L, C, Coasting>,
+        (true, false) => EventDriven::search_open::<L, C, VelocityVerlet>,
+        (true, true) => EventDriven::search_periodic::<L, C, VelocityVerlet>,
+    }
+}
+
+/// The images of a pair that can be near at once.
+pub(super) fn further<T: Real, R: Real>(cells: &Cells<T>) -> Vec<Vec3<R>> {
+    let along = |axis: usize| if cells.is_narrow(axis) { -1..=1 } else { 0..=0 };
+    let mut further = Vec::new();
+    for z in along(2) {
+        for y in along(1) {
+            let whole = R::whole;
+            further.extend(along(0).map(|x| Vec3::new(whole(x), whole(y), whole(z))));
+        }
+    }
+    further
 }

@@ -163,19 +163,15 @@ impl<T: Real> State<T> {
     /// The bytes that the state holds.
     pub fn bytes(&self) -> usize {
         let three = |columns: &Columns3<T>| columns.iter().map(Column::bytes).sum::<usize>();
-        let each = |figure: &PerBody<T>| match figure {
-            PerBody::Same(_) => 0,
-            PerBody::Each(column) => column.bytes(),
-        };
         three(&self.position)
             + three(&self.velocity)
             + three(&self.spin)
             + self.orientation.as_ref().map_or(0, |rows| rows.iter().map(Column::bytes).sum())
-            + each(&self.radius)
-            + each(&self.mass)
-            + each(&self.inverse_mass)
-            + each(&self.inertia)
-            + each(&self.inverse_inertia)
+            + self.radius.bytes()
+            + self.mass.bytes()
+            + self.inverse_mass.bytes()
+            + self.inertia.bytes()
+            + self.inverse_inertia.bytes()
             + self.spare.bytes()
             + size_of_val(self.index.as_slice())
     }
