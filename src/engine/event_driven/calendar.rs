@@ -1,9 +1,10 @@
 //! Calendar: whose turn it is, at a cost that does not grow with the bodies.
 //!
-//! The period is cut into spans of equal length. An entry goes to its span as
-//! it comes, unsorted; a span is sorted when its time has come, and entries
-//! that have been overtaken are thrown out then (a calendar queue, Brown 1988,
-//! without removal).
+//! The period is cut into spans of equal length. A body is put down in the span
+//! of its turn as it comes, unsorted, and without its time, which is in its
+//! agenda; a span is sorted when its time has come, and bodies whose turn is no
+//! longer in it are thrown out then (a calendar queue, Brown 1988, without
+//! removal).
 
 use core::cmp::Ordering;
 
@@ -18,9 +19,10 @@ pub(super) struct Turn<T> {
     pub place: u32,
 }
 
-/// Entries that lie together in memory: few enough to waste little at the end
-/// of a span, many enough that reading a span is no chase of pointers.
-const CHUNK: usize = 7;
+/// Places that lie together in memory, on one cache line: few enough to waste
+/// little at the end of a span, many enough that reading a span is no chase of
+/// pointers.
+const CHUNK: usize = 14;
 
 const NO_CHUNK: u32 = u32::MAX;
 
@@ -28,8 +30,8 @@ const NO_CHUNK: u32 = u32::MAX;
 const MOST_SPANS: usize = 1 << 24;
 
 #[derive(Clone, Copy, Debug)]
-struct Chunk<T> {
-    turns: [Turn<T>; CHUNK],
+struct Chunk {
+    places: [u32; CHUNK],
     len: u32,
     /// The chunk before, of the same span or of the free ones.
     before: u32,
@@ -38,10 +40,11 @@ struct Chunk<T> {
 /// The turns of all bodies in a period.
 #[derive(Debug)]
 pub(super) struct Calendar<T> {
+    end: T,
     spans_per_time: T,
     /// The last chunk of each span.
     last: Vec<u32>,
-    chunks: Vec<Chunk<T>>,
+    chunks: Vec<Chunk>,
     free: u32,
     /// The span that is being worked off.
     span: usize,
@@ -52,6 +55,7 @@ pub(super) struct Calendar<T> {
 impl<T: Real> Calendar<T> {
     pub fn new() -> Self {
         Self {
+            end: T::ZERO,
             spans_per_time: T::ZERO,
             last: Vec::new(),
             chunks: Vec::new(),
@@ -66,6 +70,7 @@ impl<T: Real> Calendar<T> {
     pub fn begin(&mut self, period: T, turns_per_time: f64, together: f64) {
         let spans = (turns_per_time * period.to_f64() / together) as usize;
         let spans = spans.clamp(1, MOST_SPANS);
+        self.end = period;
         self.spans_per_time = T::from_f64(spans as f64) / period;
         self.last.clear();
         self.last.resize(spans, NO_CHUNK);
@@ -75,13 +80,15 @@ impl<T: Real> Calendar<T> {
         self.now.clear();
     }
 
-    /// Enters a turn. `order` is that of places whose turns have equal times.
+    /// Enters a turn, if it is in this period. `order` is that of places whose turns have equal times.
     #[inline(always)]
     pub fn enter(&mut self, turn: Turn<T>, order: impl Fn(u32, u32) -> Ordering) {
-        let span =
-            ((turn.time * self.spans_per_time).whole_part() as usize).min(self.last.len() - 1);
+        if !turn.time.lt(self.end) {
+            return;
+        }
+        let span = self.span_of(turn.time);
         if span > self.span {
-            self.append(span, turn);
+            self.append(span, turn.place);
             return;
         }
         // Among the present ones, which are few.
@@ -99,13 +106,18 @@ impl<T: Real> Calendar<T> {
     }
 
     #[inline(always)]
-    fn append(&mut self, span: usize, turn: Turn<T>) {
+    fn span_of(&self, time: T) -> usize {
+        ((time * self.spans_per_time).whole_part() as usize).min(self.last.len() - 1)
+    }
+
+    #[inline(always)]
+    fn append(&mut self, span: usize, place: u32) {
         let mut last = self.last[span];
         if last == NO_CHUNK || self.chunks[last as usize].len as usize == CHUNK {
             let before = last;
             if self.free == NO_CHUNK {
                 last = self.chunks.len() as u32;
-                self.chunks.push(Chunk { turns: [turn; CHUNK], len: 0, before });
+                self.chunks.push(Chunk { places: [place; CHUNK], len: 0, before });
             } else {
                 last = self.free;
                 let chunk = &mut self.chunks[last as usize];
@@ -116,26 +128,26 @@ impl<T: Real> Calendar<T> {
             self.last[span] = last;
         }
         let chunk = &mut self.chunks[last as usize];
-        chunk.turns[chunk.len as usize % CHUNK] = turn;
+        chunk.places[chunk.len as usize % CHUNK] = place;
         chunk.len += 1;
     }
 
-    /// The next turn, left in the calendar. `is_due` says whether a turn is
-    /// still what its body waits for; others are dropped.
+    /// The next turn, left in the calendar. `time_of` says when the turn of the
+    /// body at a place is now; others are dropped.
     #[inline(always)]
     pub fn next(
         &mut self,
-        is_due: impl Fn(Turn<T>) -> bool,
+        time_of: impl Fn(u32) -> T,
         order: impl Fn(u32, u32) -> Ordering,
     ) -> Option<Turn<T>> {
         loop {
             while let Some(&turn) = self.now.last() {
-                if is_due(turn) {
+                if time_of(turn.place) == turn.time {
                     return Some(turn);
                 }
                 self.now.pop();
             }
-            if !self.open_next(&is_due, &order) {
+            if !self.open_next(&time_of, &order) {
                 return None;
             }
         }
@@ -150,7 +162,7 @@ impl<T: Real> Calendar<T> {
     /// Opens the next span; false after the last.
     fn open_next(
         &mut self,
-        is_due: &impl Fn(Turn<T>) -> bool,
+        time_of: &impl Fn(u32) -> T,
         order: &impl Fn(u32, u32) -> Ordering,
     ) -> bool {
         if self.span + 1 >= self.last.len() {
@@ -159,9 +171,14 @@ impl<T: Real> Calendar<T> {
         self.span += 1;
         let mut last = core::mem::replace(&mut self.last[self.span], NO_CHUNK);
         while last != NO_CHUNK {
+            let chunk = self.chunks[last as usize];
+            for &place in &chunk.places[..chunk.len as usize] {
+                let time = time_of(place);
+                if time < self.end && self.span_of(time) == self.span {
+                    self.now.push(Turn { time, place });
+                }
+            }
             let chunk = &mut self.chunks[last as usize];
-            let due = chunk.turns[..chunk.len as usize].iter().filter(|turn| is_due(**turn));
-            self.now.extend(due);
             let before = core::mem::replace(&mut chunk.before, self.free);
             self.free = last;
             last = before;
@@ -173,7 +190,7 @@ impl<T: Real> Calendar<T> {
     /// The bytes that the calendar holds.
     pub fn bytes(&self) -> usize {
         self.last.capacity() * size_of::<u32>()
-            + self.chunks.capacity() * size_of::<Chunk<T>>()
+            + self.chunks.capacity() * size_of::<Chunk>()
             + self.now.capacity() * size_of::<Turn<T>>()
     }
 }
