@@ -8,7 +8,7 @@ mod tallies;
 
 use serde::{Deserialize, Serialize};
 
-pub use event::{Event, Partner};
+pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
 pub use plan::{Plan, Turning};
 pub use stepped::Stepped;
@@ -93,7 +93,10 @@ impl Collisions {
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     /// The stepped engine needs the length of a step.
-    #[error("the scene has no step; set `dt` under [stepped], or `--dt`, to its length in time")]
+    #[error(
+        "the scene has no step; set `dt` under [stepped], or `--dt`, or `.dt()` of the builder, to \
+         its length in time"
+    )]
     NoStep,
     /// A world can't be advanced by this.
     #[error(
@@ -110,7 +113,7 @@ pub enum EngineError {
     NoDuration(f64),
     /// Collision follows upon collision while time stands still.
     #[error(
-        "time stands still at {time}: {events} events in a row without progress, the last one of \
+        "time stands still at {time:?}: {events} events in a row without progress, the last one of \
          sphere {body}; a sphere that rests on something, or is wedged in, never stops colliding: \
          give it room or speed, or run the scene with `--engine stepped`"
     )]
@@ -121,6 +124,15 @@ pub enum EngineError {
         events: u64,
         /// The scene's index of a body that takes part.
         body: u32,
+    },
+    /// The squares of speeds are no longer numbers.
+    #[error(
+        "at time {time:?} the speeds leave the range of numbers; `--precision f64`, or units in which \
+         lengths and speeds are nearer to 1, may keep them in it"
+    )]
+    TooFast {
+        /// Simulated time.
+        time: f64,
     },
     /// The system has no threads to give.
     #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]

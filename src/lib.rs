@@ -9,23 +9,23 @@
 //! # A first program
 //!
 //! ```
-//! use carom::{Cuboid, Scene, Spheres, Stepped, Surface};
+//! use carom::{Cuboid, EventDriven, Scene, Spheres, Surface};
 //!
 //! let scene = Scene::<f64>::builder()
 //!     .gravity([0.0, 0.0, -9.81])
 //!     .surface(Surface::Rough)
 //!     .surroundings(Cuboid::container([0.0; 3], [10.0; 3]))
 //!     .spheres(Spheres::random(10_000).radius(0.1).temperature(1.0).seed(7))
-//!     .dt(1e-3)
 //!     .build()?;
-//! let mut world = Stepped::new(scene)?;
+//! let mut world = EventDriven::new(scene)?;
 //! world.advance(0.1)?;
 //! println!("{}", world.energy());
 //! assert!(world.collisions().pairs > 0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The same scene as a file for the program `carom` is in
+//! [`Stepped::new`] takes the same scene once it has a step: `.dt(1e-3)` before
+//! `.build()`. The same scene as a file for the program `carom` is in
 //! [`docs/scene-file.md`](https://github.com/carom-rs/carom/blob/main/docs/scene-file.md).
 //!
 //! # Modules, in the order of the data
@@ -35,7 +35,7 @@
 //! | [`scene`] | what is simulated, from a file or a builder, checked |
 //! | [`bodies`], [`mod@column`] | the spheres, a padded column for each component |
 //! | [`surroundings`] | what is fixed in space, and the periodic box |
-//! | [`engine`] | the plan of a scene, and the engine that moves it |
+//! | [`engine`] | the plan of a scene, and the engines that move it |
 //! | [`motion`] | free flight: integrators and rotation |
 //! | [`contact`] | impulses and the time of contact |
 //! | [`observe`] | energy, momentum, temperature, pressure, the state hash |
@@ -70,8 +70,11 @@
 //!
 //! # Limits
 //!
-//! There is one engine, in steps of fixed length; a scene for the event-driven
-//! engine can be built, and nothing runs it yet. Bodies are spheres; what is
+//! The [stepped](Stepped) engine misses what begins and ends within a step,
+//! unless impacts are looked for [inside of it](Impact::SubStep). The
+//! [event-driven](EventDriven) engine misses nothing, works on one thread, and
+//! gives an [error](EngineError::Stalled) for a sphere that rests on something
+//! under gravity, which never stops colliding. Bodies are spheres; what is
 //! fixed is a plane, an axis-aligned box or a sphere. Contacts lose no energy:
 //! there is no restitution below 1 and no friction between "none" and "perfect".
 //! A scene has at most [a hundred million](scene::MOST_BODIES) bodies, and the

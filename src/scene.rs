@@ -91,7 +91,7 @@ pub enum Encounters {
 /// What only the stepped engine asks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SteppedSettings {
-    /// Length of a step, time. A checked scene of the stepped engine has it.
+    /// Length of a step, time. The stepped engine needs it.
     pub dt: Option<f64>,
     /// How a step of free flight is taken.
     pub integrator: Integrator,

@@ -20,6 +20,7 @@ pub const MOST_THREADS: u64 = 1024;
 Examples:
   carom                                 run the built-in default scene
   carom run superball --precision f32   run another built-in scene, in f32
+  carom run pi --events e.csv           every collision at its exact time
   carom scenes rough-gas > gas.toml     start a scene file of your own
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
@@ -38,6 +39,7 @@ pub enum Command {
 Examples:
   carom run                                      the built-in default scene
   carom run newtons-cradle --dt 1e-4             a built-in scene, other steps
+  carom run gas.toml --engine event-driven       without steps, exactly
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
   carom run gas.toml --json | jq .energy         the summary for a program
@@ -50,7 +52,8 @@ Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
 Examples:
   carom explain                              the built-in default scene
   carom explain free-flight --precision f32  a built-in scene in f32
-  carom explain gas.toml --lanes 8           a scene file in eight lanes")]
+  carom explain gas.toml --lanes 8           a scene file in eight lanes
+  carom explain gas.toml --engine event-driven  the same for the other engine")]
     Explain(SceneArguments),
     /// List the built-in scenes, or print one as a file to start from.
     #[command(after_help = "\
@@ -76,11 +79,13 @@ pub struct SceneArguments {
     #[arg(long, value_parser = one_of(&PRECISIONS))]
     pub precision: Option<Precision>,
 
-    /// What moves the scene through time; the scene says it otherwise
+    /// Steps of fixed length, or every collision at its exact time; the scene
+    /// says it otherwise
     #[arg(long, value_parser = one_of(&ENGINES))]
     pub engine: Option<EngineKind>,
 
-    /// Length of a step of the stepped engine, in the scene's unit of time
+    /// Length of a step of the stepped engine, in the scene's unit of time; the
+    /// event-driven engine has no steps
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub dt: Option<f64>,
 
@@ -88,7 +93,7 @@ pub struct SceneArguments {
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub duration: Option<f64>,
 
-    /// Worker threads [default: one for each core]
+    /// Worker threads of the stepped engine [default: one for each core]
     #[arg(long, value_name = "N", value_parser = threads(), allow_negative_numbers = true)]
     pub threads: Option<u64>,
 

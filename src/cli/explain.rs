@@ -1,6 +1,5 @@
 //! `carom explain`: the plan of a scene.
 
-use carom::engine::Stepped;
 use carom::real::Real;
 use carom::scene::{Precision, SceneFile};
 
@@ -8,6 +7,7 @@ use super::arguments::SceneArguments;
 use super::failure::Failure;
 use super::print;
 use super::scene_argument::scene_file;
+use super::world::World;
 
 /// Prints what the engine does for a scene.
 pub fn explain(arguments: &SceneArguments) -> Result<(), Failure> {
@@ -20,7 +20,7 @@ pub fn explain(arguments: &SceneArguments) -> Result<(), Failure> {
 }
 
 fn plan<T: Real>(file: &SceneFile, arguments: &SceneArguments) -> Result<String, Failure> {
-    let world = Stepped::<T>::with_execution(file.build()?, arguments.execution())?;
+    let world = World::<T>::new(file.build()?, arguments.execution())?;
     let plan = world.plan().to_string();
     Ok(format!("{}\n\n{}\n", file.name, plan.trim_end()))
 }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use carom::engine::EngineError;
+use carom::engine::{EngineError, EngineKind};
 use carom::output::OutputError;
 use carom::scene::SceneError;
 use thiserror::Error;
@@ -35,14 +35,15 @@ pub enum Failure {
     Print(io::Error),
     /// The motion has left the numbers.
     #[error(
-        "after {steps} steps, at time {time}, the state is no longer finite; nothing was written. \
-         A smaller --dt, or --precision f64, may keep it in range"
+        "at time {time:?} the state is no longer finite; nothing was written. {}--precision f64, or \
+         units in which lengths and speeds are nearer to 1, may keep it in range",
+        match engine { EngineKind::Stepped => "A smaller --dt, ", EngineKind::EventDriven => "" }
     )]
     NotFinite {
-        /// Steps taken.
-        steps: u64,
         /// Simulated time.
         time: f64,
+        /// The engine that moved it.
+        engine: EngineKind,
     },
 }
 

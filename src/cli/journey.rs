@@ -1,4 +1,4 @@
-//! Journey: an engine from its first step to its last, with what is to be
+//! Journey: an engine from the start of a run to its end, with what is to be
 //! seen, written and sampled on the way.
 
 use core::time::Duration;
@@ -6,65 +6,77 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use carom::contact::Surface;
-use carom::engine::Stepped;
+use carom::engine::{EngineError, Event};
 use carom::observe::Temperature;
 use carom::output::{EventWriter, OutputError, OutputFile};
 use carom::real::Real;
-use carom::scene::Scene;
 
 use super::failure::Failure;
 use super::progress::Progress;
+use super::world::World;
 
 /// How long the engine runs between two looks at the clock.
 const STRETCH: Duration = Duration::from_millis(50);
 
 /// A run under way.
 pub struct Journey {
-    steps: u64,
+    /// How far it goes, in the world's own measure.
+    length: f64,
     busy: Duration,
     /// In a periodic box, the samples for the mean temperature.
     samples: Option<Samples>,
 }
 
 impl Journey {
-    /// A run of a scene over `steps` steps.
-    pub fn new<T: Real>(scene: &Scene<T>, steps: u64) -> Self {
-        let samples = match (&scene.periodic, Temperature::of(&scene.bodies)) {
-            (Some(_), Some(first)) => Some(Samples::new(first, scene.surface, steps)),
-            _ => None,
-        };
-        Self { steps, busy: Duration::ZERO, samples }
+    /// A run of a world over a duration. In a gas, `temperature` and `surface`
+    /// are what its mean temperature is to be made of.
+    pub fn new<T: Real>(
+        world: &World<T>,
+        duration: f64,
+        gas: Option<(Temperature, Surface)>,
+    ) -> Self {
+        let length = world.length(duration);
+        let samples = gas.map(|(first, surface)| Samples::new(first, surface));
+        Self { length, busy: Duration::ZERO, samples }
     }
 
-    /// Takes all steps, and writes the collisions to `events`, which comes back
+    /// Goes all the way, and writes the collisions to `events`, which comes back
     /// whole but without its final name.
     pub fn travel<T: Real>(
         &mut self,
-        world: &mut Stepped<T>,
+        world: &mut World<T>,
         events: Option<OutputFile>,
     ) -> Result<Option<OutputFile>, Failure> {
-        let progress = Progress::new(self.steps);
+        let progress = Progress::new(self.length);
         let mut events = events.map(Recorder::new).transpose()?;
-        let mut stretch = 1;
-        while world.steps() < self.steps {
-            let next = self.samples.as_ref().map_or(self.steps, |samples| samples.next);
-            let count = stretch.min(next - world.steps());
+        let mut stretch: u64 = 1;
+        loop {
+            let mark =
+                self.samples.as_ref().map_or(self.length, |samples| samples.mark(self.length));
             let start = Instant::now();
-            match &mut events {
-                None => world.advance_steps(count),
-                Some(events) => events.advance(world, count)?,
-            }
+            let is_there = match &mut events {
+                None => world.advance(mark, self.length, stretch, None)?,
+                Some(events) => events.advance(|on_event| {
+                    world.advance(mark, self.length, stretch, Some(on_event))
+                })?,
+            };
             let taken = start.elapsed();
             self.busy += taken;
             if taken < STRETCH / 2 {
-                stretch = count.saturating_mul(2).max(stretch);
+                stretch = stretch.saturating_mul(2);
             } else if taken > STRETCH * 2 {
-                stretch = (count / 2).max(1);
+                stretch = (stretch / 2).max(1);
+            }
+            progress.show(world, self.busy);
+            if !is_there {
+                continue;
             }
             if let Some(samples) = &mut self.samples {
                 samples.take(world);
             }
-            progress.show(world.steps(), world.time(), world.collisions(), self.busy);
+            if mark >= self.length {
+                break;
+            }
         }
         let start = Instant::now();
         let file = events.map(Recorder::finish).transpose()?;
@@ -81,44 +93,45 @@ impl Journey {
     /// needs it.
     pub fn mean_temperature(&self) -> Option<f64> {
         let samples = self.samples.as_ref()?;
-        Some(samples.integral / self.steps as f64)
+        Some(samples.integral / self.length)
     }
 }
 
 /// The translational temperature, sampled on the way.
 struct Samples {
-    steps: u64,
-    every: u64,
-    /// The step at which the next sample is due.
-    next: u64,
-    last_step: u64,
+    /// Into how many spans the run is divided: a power of two, so that their
+    /// ends are exact.
+    spans: u32,
+    /// How many have passed.
+    passed: u32,
+    last_place: f64,
     last: f64,
-    /// Temperature × steps, by the trapezoidal rule.
+    /// Temperature × place, by the trapezoidal rule.
     integral: f64,
 }
 
 impl Samples {
-    fn new(first: Temperature, surface: Surface, steps: u64) -> Self {
+    fn new(first: Temperature, surface: Surface) -> Self {
         // Rough contacts exchange energy between motion and spin: the ends of a
         // run do not tell what was in between.
         let spans = match surface {
             Surface::Smooth => 1,
             Surface::Rough => 32,
         };
-        let every = steps.div_ceil(spans);
-        let last = first.translational;
-        Self { steps, every, next: every, last_step: 0, last, integral: 0.0 }
+        Self { spans, passed: 0, last_place: 0.0, last: first.translational, integral: 0.0 }
     }
 
-    fn take<T: Real>(&mut self, world: &Stepped<T>) {
-        let step = world.steps();
-        if step < self.next {
-            return;
-        }
+    /// Where the next sample is due.
+    fn mark(&self, length: f64) -> f64 {
+        length * f64::from(self.passed + 1) / f64::from(self.spans)
+    }
+
+    fn take<T: Real>(&mut self, world: &World<T>) {
+        let place = world.place();
         let now = Temperature::of(&world.bodies()).map_or(self.last, |now| now.translational);
-        self.integral += 0.5 * (self.last + now) * (step - self.last_step) as f64;
-        (self.last_step, self.last) = (step, now);
-        self.next = (step + self.every).min(self.steps);
+        self.integral += 0.5 * (self.last + now) * (place - self.last_place);
+        (self.last_place, self.last) = (place, now);
+        self.passed += 1;
     }
 }
 
@@ -137,14 +150,16 @@ impl Recorder {
         }
     }
 
-    fn advance<T: Real>(&mut self, world: &mut Stepped<T>, steps: u64) -> Result<(), OutputError> {
-        for _ in 0..steps {
-            world.step_with(&mut |event| self.writer.record(event));
-            self.writer
-                .check()
-                .map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
-        }
-        Ok(())
+    /// Writes down the collisions of a stretch of the way.
+    fn advance<T: Real>(
+        &mut self,
+        stretch: impl FnOnce(&mut dyn FnMut(&Event<T>)) -> Result<bool, EngineError>,
+    ) -> Result<bool, Failure> {
+        let result = stretch(&mut |event| self.writer.record(event));
+        self.writer
+            .check()
+            .map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
+        Ok(result?)
     }
 
     fn finish(self) -> Result<OutputFile, OutputError> {

@@ -3,36 +3,55 @@
 use core::time::Duration;
 use std::io::{self, IsTerminal};
 
-use carom::engine::Collisions;
-use indicatif::{ProgressBar, ProgressStyle};
+use carom::engine::EngineKind;
+use carom::real::Real;
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+
+use super::world::World;
+
+/// How finely the bar tells how far the run is.
+const GRAINS: f64 = 1e6;
 
 /// A bar on standard error, if that is a terminal.
 pub struct Progress {
+    length: f64,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// The bar of a run of `steps` steps.
-    pub fn new(steps: u64) -> Self {
+    /// The bar of a run of a length in the world's own measure.
+    pub fn new(length: f64) -> Self {
         let bar = io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::new(steps);
-            let template = "{bar:20} {percent:>3}%  {msg}  {eta} left";
+            let bar = ProgressBar::new(GRAINS as u64);
+            let template = "{bar:20} {percent:>3}%  {msg}";
             if let Ok(style) = ProgressStyle::with_template(template) {
                 bar.set_style(style);
             }
             bar
         });
-        Self { bar }
+        Self { length, bar }
     }
 
     /// Shows how far the run is.
-    pub fn show(&self, steps: u64, time: f64, collisions: Collisions, busy: Duration) {
+    pub fn show<T: Real>(&self, world: &World<T>, busy: Duration) {
         let Some(bar) = &self.bar else { return };
-        let count = collisions.pairs + collisions.surroundings;
-        let rate = steps as f64 / busy.as_secs_f64().max(1e-9);
+        let count = world.collisions().total();
+        let (done, unit) = match world.plan().engine {
+            EngineKind::Stepped => (world.steps(), "steps"),
+            EngineKind::EventDriven => (count, "collisions"),
+        };
+        let rate = done as f64 / busy.as_secs_f64().max(1e-9);
+        let time = world.time();
         let time = if time < 0.01 { format!("{time:.2e}") } else { format!("{time:.4}") };
-        bar.set_message(format!("time {time}  {count} collisions  {rate:.0} steps/s"));
-        bar.set_position(steps);
+        let part = world.place() / self.length;
+        // The bar's own estimate says 0 as long as it sees nothing move.
+        let left = Duration::try_from_secs_f64(busy.as_secs_f64() * (1.0 / part - 1.0));
+        let left = left.map_or_else(
+            |_| "no end in sight".into(),
+            |left| format!("{} left", HumanDuration(left)),
+        );
+        bar.set_message(format!("time {time}  {count} collisions  {rate:.0} {unit}/s  {left}"));
+        bar.set_position((part * GRAINS) as u64);
     }
 }
 

@@ -3,11 +3,10 @@
 use std::io::{self, Write};
 
 use carom::bodies::Bodies;
-use carom::engine::Stepped;
 use carom::observe::{Temperature, Totals, state_hash};
 use carom::output::{OutputFile, Setup, Summary, Work, write_state};
 use carom::real::Real;
-use carom::scene::{Precision, Scene, SceneFile};
+use carom::scene::{Precision, SceneFile};
 
 use super::arguments::RunArguments;
 use super::failure::Failure;
@@ -15,6 +14,7 @@ use super::journey::Journey;
 use super::outputs::Outputs;
 use super::print;
 use super::scene_argument::scene_file;
+use super::world::World;
 
 /// Runs a scene and prints its summary.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -37,9 +37,11 @@ fn run_in<T: Real>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Fai
         )));
     }
     let mut setup = Setup::of(&scene);
-    let mut journey = Journey::new(&scene, step_count(&scene, duration));
+    let gas = scene.periodic.and_then(|_| Temperature::of(&scene.bodies));
+    let gas = gas.map(|temperature| (temperature, scene.surface));
     let gravity = scene.gravity;
-    let mut world = Stepped::with_execution(scene, arguments.scene.execution())?;
+    let mut world = World::new(scene, arguments.scene.execution())?;
+    let mut journey = Journey::new(&world, duration, gas);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
     let outputs = Outputs::open(arguments)?;
@@ -49,7 +51,7 @@ fn run_in<T: Real>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Fai
     let bodies = world.bodies();
     let after = Totals::of(&bodies, gravity);
     if !after.is_finite() {
-        return Err(Failure::NotFinite { steps: world.steps(), time: world.time() });
+        return Err(Failure::NotFinite { time: world.time(), engine: setup.engine });
     }
     let temperature = Temperature::of(&bodies);
     let hash = state_hash(&bodies);
@@ -59,23 +61,12 @@ fn run_in<T: Real>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Fai
         file.finish()?;
     }
     let work = Work {
-        time: world.time(),
-        steps: world.steps(),
-        collisions: world.collisions(),
-        impulse_from_surroundings: world.impulse_from_surroundings(),
-        virial: world.virial(),
         mean_temperature: journey.mean_temperature(),
         wall_seconds: journey.wall_seconds(),
+        ..world.work()
     };
     let summary = Summary::new(setup, &before, &after, temperature, hash, &work);
     show(&summary, arguments.json, outputs.take_standard_output)
-}
-
-/// The whole number of steps nearest to the duration, at least one. A checked
-/// scene has a step, and no more steps than can be counted.
-fn step_count<T: Real>(scene: &Scene<T>, duration: f64) -> u64 {
-    let dt = scene.stepped.dt.unwrap_or(duration);
-    (duration / dt).round().max(1.0) as u64
 }
 
 /// A state file with the state in it.

@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use carom::engine::EngineKind;
 use carom::scene::{DEFAULT_SCENE, SceneFile, builtin_scenes};
 
 use super::arguments::SceneArguments;
@@ -27,16 +26,6 @@ pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
     }
     file.duration = arguments.duration.or(file.duration);
     file.dt = arguments.dt.or(file.dt);
-    if file.engine == EngineKind::EventDriven {
-        let whose = match (arguments.engine, &arguments.scene) {
-            (None, Some(scene)) => format!("{}: engine = \"event-driven\"", scene.display()),
-            _ => "--engine event-driven".to_owned(),
-        };
-        return Err(Failure::Argument(format!(
-            "{whose}: this version has the stepped engine only; \
-             run the scene with `--engine stepped --dt TIME`"
-        )));
-    }
     Ok(file)
 }
 

@@ -23,7 +23,8 @@ pub struct ContactTime<L: Lane> {
 }
 
 /// The terms of `|x + Vt|² = s²`, which both directions of time share.
-struct Encounter<L> {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Encounter<L> {
     speed_squared: L,
     /// `x·V`.
     moving_apart: L,
@@ -36,7 +37,7 @@ struct Encounter<L> {
 
 impl<L: Lane> Encounter<L> {
     #[inline(always)]
-    fn new(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Self {
+    pub(crate) fn new(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Self {
         let speed_squared = relative.length_squared();
         let reach_squared = reach * reach;
         Self {
@@ -45,6 +46,29 @@ impl<L: Lane> Encounter<L> {
             overlap: reach_squared - offset.length_squared(),
             discriminant: speed_squared * reach_squared - offset.cross(relative).length_squared(),
         }
+    }
+
+    /// Whether the spheres would meet if `x·V` were less by `slack`.
+    #[inline(always)]
+    pub(crate) fn may_meet(&self, slack: L) -> L::Mask {
+        self.moving_apart.lt(slack) & self.discriminant.gt(L::ZERO)
+    }
+
+    /// See [`contact_time`].
+    #[inline(always)]
+    pub(crate) fn contact_time(&self) -> ContactTime<L> {
+        let is_deep = self.discriminant.gt(L::ZERO);
+        // In contact and approaching, rounding alone can take D to 0.
+        let meets = self.moving_apart.lt(L::ZERO) & (is_deep | self.overlap.ge(L::ZERO));
+        let root = L::select(is_deep, self.discriminant, L::ZERO).sqrt();
+        let gap = (-self.overlap).greater(L::ZERO);
+        ContactTime { meets, time: gap / (root - self.moving_apart) }
+    }
+
+    /// Whether the gap is below a small part of the reach.
+    #[inline(always)]
+    pub(crate) fn is_touching(&self, reach: L) -> L::Mask {
+        (-self.overlap).lt(reach * reach * L::ratio(1, 1024))
     }
 }
 
@@ -85,14 +109,7 @@ pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Pa
 /// ```
 #[inline(always)]
 pub fn contact_time<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> ContactTime<L> {
-    let Encounter { moving_apart, overlap, discriminant, .. } =
-        Encounter::new(offset, relative, reach);
-    let is_deep = discriminant.gt(L::ZERO);
-    // In contact and approaching, rounding alone can take D to 0.
-    let meets = moving_apart.lt(L::ZERO) & (is_deep | overlap.ge(L::ZERO));
-    let root = L::select(is_deep, discriminant, L::ZERO).sqrt();
-    let gap = (-overlap).greater(L::ZERO);
-    ContactTime { meets, time: gap / (root - moving_apart) }
+    Encounter::new(offset, relative, reach).contact_time()
 }
 
 #[cfg(test)]

@@ -19,6 +19,9 @@ pub enum Partner<T> {
     Surroundings(u32),
 }
 
+/// Who is told of collisions, if anybody is.
+pub type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
+
 /// One collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event<T: Real> {

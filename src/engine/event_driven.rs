@@ -25,7 +25,7 @@ mod search;
 
 use super::plan::{Plan, Turning};
 use super::tallies::Tallies;
-use super::{Collisions, EngineError, Event, Execution};
+use super::{Collisions, EngineError, EngineKind, Event, Execution, Listener};
 use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
 use crate::lane::Lane;
@@ -37,7 +37,7 @@ use crate::real::Real;
 use crate::scene::Scene;
 use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space};
 use crate::vec3::Vec3;
-use agenda::{Agenda, Next};
+use agenda::{Agenda, Mark, Next};
 use calendar::{Calendar, Turn};
 use cells::Cells;
 use coarse::Coarse;
@@ -83,6 +83,7 @@ pub struct EventDriven<T: Real> {
     // By place: neighbours in space are neighbours in memory.
     records: Vec<Record<T>>,
     agendas: Vec<Agenda<T>>,
+    marks: Vec<Mark>,
     spins: Vec<Vec3<T>>,
     /// Where contacts change spins: orientations, and since when they are true.
     turned: Vec<(Mat3<T>, T)>,
@@ -146,7 +147,7 @@ impl<T: Real> EventDriven<T> {
     /// # Errors
     /// None yet for a checked scene.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
-        let plan = Plan::new(&scene, execution, 1);
+        let plan = Plan::new(&scene, EngineKind::EventDriven, execution, 1);
         let bodies = scene.bodies;
         let mut features = Vec::new();
         let mut parts = Vec::new();
@@ -187,6 +188,7 @@ impl<T: Real> EventDriven<T> {
             near,
             records: Vec::new(),
             agendas: Vec::new(),
+            marks: Vec::new(),
             spins: Vec::new(),
             turned: Vec::new(),
             index: (0..len as u32).collect(),
@@ -282,10 +284,11 @@ impl<T: Real> EventDriven<T> {
     /// Two advances are one, bit by bit: to stop in between changes nothing.
     ///
     /// # Errors
-    /// If the duration is negative or no number, or if time no longer advances
-    /// from event to event; the world is then where it stopped.
+    /// If the duration is negative or no number, if time no longer advances from
+    /// event to event, or if the motion leaves the range of numbers; the world
+    /// is then where it stopped.
     pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
-        self.run(duration, u64::MAX, None)
+        self.advance_to(self.after(duration)?, u64::MAX, None).map(|_| ())
     }
 
     /// Lets time pass up to the given number of collisions from now, at most
@@ -295,7 +298,7 @@ impl<T: Real> EventDriven<T> {
     /// As [`advance`](EventDriven::advance).
     pub fn advance_until(&mut self, events: u64, longest: f64) -> Result<u64, EngineError> {
         let before = self.collisions.total();
-        self.run(longest, events, None)?;
+        self.advance_to(self.after(longest)?, events, None)?;
         Ok(self.collisions.total() - before)
     }
 
@@ -309,22 +312,53 @@ impl<T: Real> EventDriven<T> {
         duration: f64,
         mut on_event: impl FnMut(&Event<T>),
     ) -> Result<(), EngineError> {
-        self.run(duration, u64::MAX, Some(&mut on_event))
+        self.advance_to(self.after(duration)?, u64::MAX, Some(&mut on_event)).map(|_| ())
     }
 
-    fn run(
-        &mut self,
-        duration: f64,
-        events: u64,
-        mut on_event: Option<&mut dyn FnMut(&Event<T>)>,
-    ) -> Result<(), EngineError> {
-        if !(duration >= 0.0) {
-            return Err(EngineError::NoDuration(duration));
+    /// The time that is a duration away.
+    fn after(&self, duration: f64) -> Result<f64, EngineError> {
+        if duration >= 0.0 {
+            return Ok(self.time + duration);
         }
-        let until = self.time + duration;
+        Err(EngineError::NoDuration(duration))
+    }
+
+    /// Lets time pass up to `time`, counted from the start, or up to the given
+    /// number of collisions from now if that comes first, and tells of every
+    /// collision on the way. Returns whether all up to that time is done.
+    ///
+    /// The other ways to advance are this one. Stretches to given times end
+    /// there exactly; a sum of durations would be rounded.
+    ///
+    /// ```
+    /// # use carom::engine::EventDriven;
+    /// # use carom::scene::{Scene, Sphere};
+    /// # use carom::surroundings::Cuboid;
+    /// # let scene = Scene::<f64>::builder()
+    /// #     .surroundings(Cuboid::container([0.0; 3], [2.0; 3]))
+    /// #     .sphere(Sphere::new([1.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]))
+    /// #     .build()?;
+    /// let mut world = EventDriven::new(scene)?;
+    /// while !world.advance_to(10.0, 3, None)? {
+    ///     println!("{} collisions up to {}", world.collisions().total(), world.time());
+    /// }
+    /// assert_eq!(world.collisions().surroundings, 10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If the time is past or no number, otherwise as
+    /// [`advance`](EventDriven::advance).
+    pub fn advance_to(
+        &mut self,
+        time: f64,
+        events: u64,
+        mut on_event: Listener<'_, T>,
+    ) -> Result<bool, EngineError> {
+        self.after(time - self.time)?;
         let last = self.collisions.total().saturating_add(events);
         loop {
-            let ahead = until - self.origin.value();
+            let ahead = time - self.origin.value();
             let ends_here = ahead < self.period.to_f64();
             let limit = if ends_here { T::from_f64(ahead) } else { self.period };
             while self.collisions.total() < last && !self.is_too_fast {
@@ -337,16 +371,22 @@ impl<T: Real> EventDriven<T> {
                 self.take_turn(turn, &mut on_event);
             }
             if self.collisions.total() == last {
-                self.time = self.time.max(self.origin.value() + self.last_time.to_f64());
-                return Ok(());
+                let now = self.origin.value() + self.last_time.to_f64();
+                // Not beyond the end, up to which it may have been rounded.
+                self.time = self.time.max(now).lesser(time);
+                return Ok(false);
             }
             if self.is_too_fast {
                 self.begin_period(self.last_time);
             } else if ends_here {
-                self.time = until;
-                return Ok(());
+                self.time = time;
+                return Ok(true);
             } else {
                 self.begin_period(self.period);
+            }
+            if !self.too_fast.is_finite() {
+                self.time = self.origin.value();
+                return Err(EngineError::TooFast { time: self.time });
             }
         }
     }
@@ -395,7 +435,7 @@ impl<T: Real> EventDriven<T> {
     }
 
     #[inline(always)]
-    fn take_turn(&mut self, turn: Turn<T>, on_event: &mut Option<&mut dyn FnMut(&Event<T>)>) {
+    fn take_turn(&mut self, turn: Turn<T>, on_event: &mut Listener<'_, T>) {
         let Turn { time, place } = turn;
         self.turns += 1;
         match self.agendas[place as usize].next() {
@@ -409,7 +449,7 @@ impl<T: Real> EventDriven<T> {
                     self.collide_with_feature(place, feature, time, on_event);
                     return;
                 }
-                Ok(other) if self.agendas[other as usize].changes == expected.changes => {
+                Ok(other) if self.marks[other as usize].changes == expected.changes => {
                     self.collide_pair(place, other, time, on_event);
                     return;
                 }
@@ -480,6 +520,7 @@ impl<T: Real> EventDriven<T> {
     pub fn bytes(&self) -> usize {
         self.records.capacity() * size_of::<Record<T>>()
             + self.agendas.capacity() * size_of::<Agenda<T>>()
+            + self.marks.capacity() * size_of::<Mark>()
             + self.spins.capacity() * size_of::<Vec3<T>>()
             + self.turned.capacity() * size_of::<(Mat3<T>, T)>()
             + self.index.capacity() * size_of::<u32>()

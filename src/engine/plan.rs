@@ -3,9 +3,9 @@
 //! A scene pays only for what it uses. The plan says which figures are loaded,
 //! computed and stored, and which kernels do it; `carom explain` prints it.
 
-use core::fmt;
+mod rows;
 
-use super::{Execution, Impact, Lanes, OrientationUpdate};
+use super::{EngineKind, Execution, Impact, Lanes, OrientationUpdate};
 use crate::bodies::PerBody;
 use crate::contact::Surface;
 use crate::motion::Integrator;
@@ -25,24 +25,30 @@ pub enum Turning {
     EachStep,
 }
 
-/// What a scene needs of the stepped engine.
+/// What a scene needs of an engine.
 #[derive(Clone, Debug)]
 pub struct Plan {
+    /// The engine that it is made for.
+    pub engine: EngineKind,
     /// The precision's name.
     pub precision: &'static str,
     /// How many bodies there are.
     pub bodies: usize,
     /// Worker threads.
     pub threads: usize,
-    /// Reals at once in sweeps over all bodies.
+    /// Reals at once in sweeps over all bodies; of the event-driven engine,
+    /// where neighbours are screened.
     pub sweep_lanes: usize,
     /// Reals at once where bodies are gathered by pairs.
     pub gather_lanes: usize,
+    /// Whether the event-driven engine screens neighbours in a coarser
+    /// precision.
+    pub has_screening: bool,
     /// Whether there is a field: velocities change in flight.
     pub has_field: bool,
-    /// How flight is integrated.
+    /// How the stepped engine integrates flight.
     pub integrator: Integrator,
-    /// When contacts take effect.
+    /// When contacts of the stepped engine take effect.
     pub impact: Impact,
     /// Whether positions are wrapped and differences taken to the nearest image.
     pub is_periodic: bool,
@@ -61,10 +67,20 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The plan of a scene.
+    /// The plan of a scene for an engine, whichever the scene itself names.
     #[must_use]
-    pub fn new<T: Real>(scene: &Scene<T>, execution: Execution, threads: usize) -> Self {
-        let (sweep_lanes, gather_lanes) = lanes::<T>(execution.lanes);
+    pub fn new<T: Real>(
+        scene: &Scene<T>,
+        engine: EngineKind,
+        execution: Execution,
+        threads: usize,
+    ) -> Self {
+        let has_screening =
+            engine == EngineKind::EventDriven && size_of::<T::Coarse>() < size_of::<T>();
+        let (sweep_lanes, gather_lanes) = match engine {
+            EngineKind::Stepped => lanes::<T>(execution.lanes),
+            EngineKind::EventDriven => search_lanes::<T>(execution.lanes, has_screening),
+        };
         let is_rough = scene.surface == Surface::Rough && scene.encounters != Encounters::None;
         let bodies = &scene.bodies;
         let is_spinning = bodies.spin.iter().any(|column| column.iter().any(|&w| w != T::ZERO));
@@ -74,16 +90,18 @@ impl Plan {
         };
         let turning = match scene.stepped.orientation {
             _ if !is_rough && !is_spinning => Turning::Never,
-            OrientationUpdate::EachStep => Turning::EachStep,
-            OrientationUpdate::WhenAsked if is_rough => Turning::FromLastContact,
-            OrientationUpdate::WhenAsked => Turning::FromStart,
+            OrientationUpdate::EachStep if engine == EngineKind::Stepped => Turning::EachStep,
+            _ if is_rough => Turning::FromLastContact,
+            _ => Turning::FromStart,
         };
         Self {
+            engine,
             precision: T::NAME,
             bodies: bodies.len(),
             threads,
             sweep_lanes,
             gather_lanes,
+            has_screening,
             has_field: scene.gravity.to_array().iter().any(|&a| a != T::ZERO),
             integrator: scene.stepped.integrator,
             impact: scene.stepped.impact,
@@ -111,83 +129,12 @@ fn lanes<T: Real>(lanes: Lanes) -> (usize, usize) {
     }
 }
 
-impl fmt::Display for Plan {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut row = |what: &str, how: &str| writeln!(f, "{what:<22}{how}");
-        let integrator = match self.integrator {
-            Integrator::SemiImplicitEuler => "semi-implicit Euler",
-            Integrator::ExplicitEuler => "explicit Euler",
-            Integrator::VelocityVerlet => "velocity Verlet",
-        };
-        row("engine", "stepped")?;
-        row("bodies", &format!("{} in {}", self.bodies, self.precision))?;
-        row("lanes", &format!("{} in sweeps, {} in gathers", self.sweep_lanes, self.gather_lanes))?;
-        row("threads", &self.threads.to_string())?;
-        row(
-            "flight",
-            &if self.has_field {
-                format!("{integrator}: positions and velocities are updated")
-            } else {
-                "no field: positions are updated, velocities only read".to_owned()
-            },
-        )?;
-        row(
-            "space",
-            if self.is_periodic {
-                "periodic: positions are wrapped, differences taken to the nearest image"
-            } else {
-                "open: no wrapping"
-            },
-        )?;
-        row(
-            "pairs",
-            match (self.has_pairs, self.has_radii) {
-                (false, _) => "skipped: bodies do not meet each other",
-                (true, false) => "grid and candidate list; one radius for all, none is loaded",
-                (true, true) => "grids by size and candidate list; radii are loaded",
-            },
-        )?;
-        row(
-            "surroundings",
-            &match self.features {
-                0 => "skipped: there is nothing to meet".to_owned(),
-                1 => "1 feature, tested where a body is near".to_owned(),
-                count => format!("{count} features, tested where a body is near"),
-            },
-        )?;
-        let contacts = self.has_pairs || self.features > 0;
-        row(
-            "impact",
-            match (contacts, self.impact) {
-                (false, _) => "skipped: there are no contacts",
-                (true, Impact::EndOfStep) => "at the end of the step",
-                (true, Impact::SubStep) => "at the time of impact inside the step",
-            },
-        )?;
-        row(
-            "surfaces",
-            match (contacts, self.is_rough) {
-                (false, _) => "skipped: there are no contacts",
-                (true, false) => "smooth: spins are never read",
-                (true, true) => "rough: spins are read and changed at contacts",
-            },
-        )?;
-        row(
-            "masses",
-            match (contacts, self.has_masses) {
-                (false, _) => "skipped: there are no contacts",
-                (true, false) => "one for all, none is loaded",
-                (true, true) => "loaded at contacts",
-            },
-        )?;
-        row(
-            "orientations",
-            match self.turning {
-                Turning::Never => "skipped: nothing spins",
-                Turning::FromStart => "one closed form from the start, when asked",
-                Turning::FromLastContact => "a closed form from the last contact, when asked",
-                Turning::EachStep => "turned in each step, as the scene wants it",
-            },
-        )
+/// The widths for screening neighbours and for contact times. What is screened
+/// is half as large, so twice as many are taken at once.
+fn search_lanes<T: Real>(lanes: Lanes, has_screening: bool) -> (usize, usize) {
+    let (_, gather) = self::lanes::<T>(lanes);
+    match lanes {
+        Lanes::Auto | Lanes::Sixteen if has_screening => (16, gather),
+        _ => (gather, gather),
     }
 }

@@ -16,7 +16,7 @@ mod struck;
 
 use super::plan::{Plan, Turning};
 use super::tallies::Tallies;
-use super::{Collisions, EngineError, Event, Execution, Impact};
+use super::{Collisions, EngineError, EngineKind, Event, Execution, Impact};
 use crate::bodies::Bodies;
 use crate::broadphase::{BroadPhase, Candidates};
 use crate::lane::Lane;
@@ -130,7 +130,7 @@ impl<T: Real> Stepped<T> {
         let exact_dt = scene.stepped.dt.ok_or(EngineError::NoStep)?;
         let dt = T::from_f64(exact_dt);
         let workers = Workers::new(execution.threads)?;
-        let plan = Plan::new(&scene, execution, workers.threads());
+        let plan = Plan::new(&scene, EngineKind::Stepped, execution, workers.threads());
         let len = scene.bodies.len();
         let mut features = Vec::new();
         let mut parts = Vec::new();
@@ -187,6 +187,12 @@ impl<T: Real> Stepped<T> {
     #[must_use]
     pub fn dt(&self) -> T {
         self.dt
+    }
+
+    /// Length of a step as the scene gives it, not as the precision rounds it.
+    #[must_use]
+    pub fn exact_dt(&self) -> f64 {
+        self.exact_dt
     }
 
     /// Steps taken.

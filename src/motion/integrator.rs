@@ -3,6 +3,8 @@
 //! All are composed of [`drift`] and [`kick`]; each is a type, so that a sweep
 //! is compiled for it, and [`Integrator`] names it at run time.
 
+use core::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::lane::Lane;
@@ -19,6 +21,16 @@ pub enum Integrator {
     ExplicitEuler,
     /// [`VelocityVerlet`]: the exact parabola.
     VelocityVerlet,
+}
+
+impl fmt::Display for Integrator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::SemiImplicitEuler => "semi-implicit Euler",
+            Self::ExplicitEuler => "explicit Euler",
+            Self::VelocityVerlet => "velocity Verlet",
+        })
+    }
 }
 
 /// Position after flying with constant velocity: `c + vΔt`, length.

@@ -5,8 +5,7 @@ use core::fmt;
 use super::summary::{Summary, shortest};
 use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
 use crate::contact::Surface;
-use crate::engine::{EngineKind, Impact};
-use crate::motion::Integrator;
+use crate::engine::Impact;
 
 /// The labels of a vector's rows.
 const AXES: [&str; 3] = ["  x", "  y", "  z"];
@@ -46,8 +45,11 @@ impl Summary {
         let mut table = Table::of_texts();
         let mut line = |label: &str, text: String| table.row(label, [text]);
         line("  engine", self.engine_words());
-        let steps = counted(self.steps, "step");
-        line("  time", format!("{} in {steps} of {}", self.time_words(), plain(self.setup.dt)));
+        let mut time = self.time_words();
+        if let Some(dt) = self.setup.dt {
+            time += &format!(" in {} of {}", counted(self.steps, "step"), plain(dt));
+        }
+        line("  time", time);
         line(
             "  collisions",
             format!(
@@ -65,12 +67,19 @@ impl Summary {
                 counted(self.setup.lanes as u64, "lane")
             ),
         );
-        let nanoseconds = 1e9 / self.body_steps_per_second;
-        let mut speed = format!("{} ns per body and step", rounded(nanoseconds));
-        if self.collisions_per_second > 0.0 {
-            speed += &format!(", {} collisions per second", rounded(self.collisions_per_second));
+        let mut speed = Vec::new();
+        if self.body_steps_per_second > 0.0 {
+            speed.push(format!(
+                "{} ns per body and step",
+                rounded(1e9 / self.body_steps_per_second)
+            ));
         }
-        line("  speed", speed);
+        if self.collisions_per_second > 0.0 {
+            speed.push(format!("{} collisions per second", rounded(self.collisions_per_second)));
+        }
+        if !speed.is_empty() {
+            line("  speed", speed.join(", "));
+        }
         table
     }
 
@@ -83,21 +92,14 @@ impl Summary {
     }
 
     fn engine_words(&self) -> String {
-        match self.setup.engine {
-            EngineKind::EventDriven => "event-driven".to_owned(),
-            EngineKind::Stepped => {
-                let integrator = match self.setup.integrator {
-                    Integrator::SemiImplicitEuler => "semi-implicit Euler",
-                    Integrator::ExplicitEuler => "explicit Euler",
-                    Integrator::VelocityVerlet => "velocity Verlet",
-                };
-                let impact = match self.setup.impact {
-                    Impact::EndOfStep => "impacts at the end of a step",
-                    Impact::SubStep => "impacts at their time within a step",
-                };
-                format!("stepped, {integrator}, {impact}")
-            }
-        }
+        let (Some(integrator), Some(impact)) = (self.setup.integrator, self.setup.impact) else {
+            return "event-driven, every collision at its exact time".to_owned();
+        };
+        let impact = match impact {
+            Impact::EndOfStep => "impacts at the end of a step",
+            Impact::SubStep => "impacts at their time within a step",
+        };
+        format!("stepped, {integrator}, {impact}")
     }
 
     fn conserved(&self) -> Table {
@@ -163,6 +165,9 @@ impl Summary {
         if let (Some(factor), Some(rate)) = (self.compressibility, self.collision_rate) {
             table.row("compressibility", [digits(factor)]);
             table.row("collision rate", [format!("{} per body and time", digits(rate))]);
+        }
+        if let Some(path) = self.mean_free_path {
+            table.row("mean free path", [digits(path)]);
         }
         if let Some(temperature) = self.temperature.filter(|_| self.setup.bodies >= A_GAS) {
             table.row("temperature", [format!("{temperature}")]);

@@ -26,10 +26,10 @@ pub struct Setup {
     pub threads: usize,
     /// What moved the scene through time.
     pub engine: EngineKind,
-    /// How a step of free flight was taken.
-    pub integrator: Integrator,
-    /// Where inside a step a contact took effect.
-    pub impact: Impact,
+    /// How a step of free flight was taken; `None` without steps.
+    pub integrator: Option<Integrator>,
+    /// Where inside a step a contact took effect; `None` without steps.
+    pub impact: Option<Impact>,
     /// The surfaces of all bodies.
     pub surface: Surface,
     /// The uniform acceleration, length per time².
@@ -39,8 +39,8 @@ pub struct Setup {
     pub fixed_parts: usize,
     /// Whether space closes upon itself.
     pub periodic: bool,
-    /// Length of a step, time.
-    pub dt: f64,
+    /// Length of a step, time; `None` without steps.
+    pub dt: Option<f64>,
     /// How many bodies.
     pub bodies: usize,
     /// Their mass together.
@@ -48,22 +48,23 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// A run of a scene by steps, in one lane on one thread.
+    /// A run of a scene by the engine that it names, in one lane on one thread.
     #[must_use]
     pub fn of<T: Real>(scene: &Scene<T>) -> Self {
+        let stepped = (scene.engine == EngineKind::Stepped).then_some(scene.stepped);
         Self {
             scene: scene.name.clone(),
             precision: T::NAME,
             lanes: 1,
             threads: 1,
             engine: scene.engine,
-            integrator: scene.stepped.integrator,
-            impact: scene.stepped.impact,
+            integrator: stepped.map(|settings| settings.integrator),
+            impact: stepped.map(|settings| settings.impact),
             surface: scene.surface,
             gravity: scene.gravity.to_array().map(T::to_f64),
             fixed_parts: scene.surroundings.len(),
             periodic: scene.periodic.is_some(),
-            dt: shortest(T::from_f64(scene.stepped.dt.unwrap_or(0.0))),
+            dt: stepped.and_then(|settings| settings.dt).map(|dt| shortest(T::from_f64(dt))),
             bodies: scene.bodies.len(),
             total_mass: total_mass(&scene.bodies),
         }
@@ -75,7 +76,7 @@ impl Setup {
 pub struct Work {
     /// Simulated time.
     pub time: f64,
-    /// Steps taken.
+    /// Steps taken; 0 by the event-driven engine.
     pub steps: u64,
     /// Collisions counted.
     pub collisions: Collisions,
@@ -83,6 +84,8 @@ pub struct Work {
     pub impulse_from_surroundings: [f64; 3],
     /// `Σ σ|J_n|` over the pair collisions, mass × length² per time.
     pub virial: f64,
+    /// Mean length of the flights between collisions, where the engine knows it.
+    pub mean_free_path: Option<f64>,
     /// Mean translational temperature over the run; `None` for fewer than two
     /// bodies.
     pub mean_temperature: Option<f64>,
@@ -157,7 +160,7 @@ pub struct Summary {
     pub setup: Setup,
     /// Simulated time.
     pub time: f64,
-    /// Steps taken.
+    /// Steps taken; 0 by the event-driven engine.
     pub steps: u64,
     /// Collisions counted.
     pub collisions: Collisions,
@@ -176,13 +179,17 @@ pub struct Summary {
     /// Collisions with others per body and time, in a periodic box.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub collision_rate: Option<f64>,
+    /// Mean length of the flights between collisions, of an event-driven run
+    /// with any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_free_path: Option<f64>,
     /// Hash of the bits of the final state.
     pub state_hash: StateHash,
     /// Time on the clock on the wall, seconds.
     pub wall_seconds: f64,
     /// Collisions of both kinds per second on the wall.
     pub collisions_per_second: f64,
-    /// Bodies × steps per second on the wall.
+    /// Bodies × steps per second on the wall; 0 without steps.
     pub body_steps_per_second: f64,
 }
 
@@ -217,6 +224,7 @@ impl Summary {
                 compressibility(setup.bodies, work.virial, mean, time)
             }),
             collision_rate: in_box(&|| collision_rate(setup.bodies, collisions.pairs, time)),
+            mean_free_path: work.mean_free_path,
             state_hash,
             wall_seconds,
             collisions_per_second: per_second((collisions.pairs + collisions.surroundings) as f64),
@@ -236,10 +244,12 @@ impl EnergySummary {
         let collisions = work.collisions.pairs + work.collisions.surroundings;
         // Where space wraps, so does the potential; an impact within a step
         // moves bodies too.
-        let has_law = !setup.periodic && (setup.impact == Impact::EndOfStep || collisions == 0);
-        let drift = || {
+        let is_at_end = setup.impact == Some(Impact::EndOfStep);
+        let has_law = !setup.periodic && (is_at_end || collisions == 0);
+        let law = setup.integrator.zip(setup.dt).filter(|_| has_law);
+        let drift = |(integrator, dt)| {
             let acceleration = Vec3::from(setup.gravity).length();
-            integrator_drift(setup.integrator, work.steps, setup.dt, acceleration, setup.total_mass)
+            integrator_drift(integrator, work.steps, dt, acceleration, setup.total_mass)
         };
         Self {
             initial: before.total(),
@@ -247,7 +257,7 @@ impl EnergySummary {
             relative_change: after.relative_change(before),
             parts: parts(after),
             initial_parts: parts(before),
-            integrator_drift: has_law.then(drift),
+            integrator_drift: law.map(drift),
         }
     }
 }

@@ -40,6 +40,9 @@ pub fn builtin_scenes() -> &'static [BuiltinScene] {
         "superball": "a rough ball between floor and ceiling, where it turns back",
         "hard-sphere-fluid": "10,976 smooth spheres in a periodic cube at density 0.5",
         "mixture": "spheres of many sizes and masses, 1 to 10, in a container",
+        "lorentz-gas": "1,000 balls among fixed ones, at their mean free path",
+        "pi": "a heavy ball, a light one and a wall: 314,159 collisions",
+        "wedge": "a ball between two slopes under gravity, never at rest",
         "free-flight": "100,000 spinning spheres that meet nobody",
     }
 }

@@ -65,12 +65,10 @@ pub(super) fn settings<T: Real>(builder: &SceneBuilder<T>) -> Result<(), SceneEr
             .map_err(|problem| origin.error("duration", problem))?;
     }
     match builder.stepped.dt {
-        None if builder.engine == EngineKind::Stepped => {
-            let wanted = if origin.is_file() {
-                "the stepped engine has no default for it: set `dt` under [stepped], or --dt"
-            } else {
-                "the stepped engine has no default for it: call .dt() of the builder"
-            };
+        // Code may choose the engine later: `Stepped::new` asks for it there.
+        None if builder.engine == EngineKind::Stepped && origin.is_file() => {
+            let wanted =
+                "the stepped engine has no default for it: set `dt` under [stepped], or --dt";
             return fail("stepped.dt", Problem::missing(wanted));
         }
         None => {}

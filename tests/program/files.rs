@@ -16,10 +16,12 @@ const STATE: &str = "id,x,y,z,vx,vy,vz,wx,wy,wz,\
 
 #[test]
 fn events_are_rows_in_order() {
-    for scene in [BOX, FLUID] {
+    let scenes = [BOX, FLUID].into_iter();
+    for (scene, engine) in scenes.flat_map(|scene| ["stepped", "event-driven"].map(|e| (scene, e)))
+    {
         let folder = Folder::with(scene);
-        let run = "run scene.toml --json --events events.csv";
-        let summary = folder.says(run).summary();
+        let run = format!("run scene.toml --json --engine {engine}");
+        let summary = folder.says(&format!("{run} --events events.csv")).summary();
         let (header, rows) = rows(&folder.path("events.csv"));
         assert_eq!(header.join(","), EVENTS);
         let (fixed, pairs): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[2].is_empty());
@@ -49,7 +51,7 @@ fn events_are_rows_in_order() {
             before = order;
         }
         assert!(before.0 <= summary["time"].as_f64().unwrap());
-        let quiet = folder.says("run scene.toml --json").summary();
+        let quiet = folder.says(&run).summary();
         assert_eq!(quiet["state_hash"], summary["state_hash"]);
     }
 }
@@ -102,10 +104,18 @@ fn files_are_replaced_when_whole_and_nothing_else_is_left() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_leaves_no_file() {
+    interrupted("stepped");
+    interrupted("event-driven");
+}
+
+#[cfg(unix)]
+fn interrupted(engine: &str) {
     use std::time::{Duration, Instant};
     let folder = Folder::with(BOX);
     fs::write(folder.path("state.csv"), "old").unwrap();
-    let run = "run scene.toml --duration 1e9 --events events.csv --state state.csv";
+    let run = format!(
+        "run scene.toml --engine {engine} --duration 1e9 --events events.csv --state state.csv"
+    );
     let mut child = folder.program(run.split(' ')).spawn().unwrap();
     let patience = Instant::now();
     while folder.names().len() < 4 {

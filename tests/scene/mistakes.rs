@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use carom::engine::{EventDriven, Stepped};
 use carom::scene::{Problem, Scene, SceneFile, Sphere, builtin_scenes};
 
 use crate::{BALL, assert_starts, ball_message, file, group_message, message, message_in};
@@ -118,11 +119,18 @@ fn steps_that_are_missing_or_too_many() {
         "s: stepped.dt is missing; the stepped engine has no default for it: set `dt` under \
          [stepped], or --dt",
     );
-    let error = Scene::<f64>::builder().sphere(Sphere::new([0.0; 3]).radius(1.0)).build();
-    assert!(error.unwrap_err().to_string().ends_with("call .dt() of the builder"));
+    // Code chooses its engine after the scene is built.
+    let ball =
+        || Scene::<f64>::builder().sphere(Sphere::new([0.0; 3]).radius(1.0)).build().unwrap();
+    let error = Stepped::new(ball()).unwrap_err();
+    assert!(error.to_string().contains("`.dt()` of the builder"), "{error}");
+    EventDriven::new(ball()).unwrap();
     built(&format!("engine = \"event-driven\"\n{BALL}")).unwrap();
     let error = built(&format!("duration = 1e9\nstepped.dt = 1e-9\n{BALL}")).unwrap_err();
     assert_starts(&error.to_string(), "s:2: stepped.dt is 1e-9; that is 1e18 steps, ");
+    // An engine without steps takes as many.
+    built(&format!("engine = \"event-driven\"\nduration = 1e9\nstepped.dt = 1e-9\n{BALL}"))
+        .unwrap();
     let file = SceneFile::parse("s", BALL).unwrap();
     assert_starts(&file.run_duration().unwrap_err().to_string(), "s: duration is missing; set ");
 }

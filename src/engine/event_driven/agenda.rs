@@ -49,9 +49,10 @@ pub(super) struct Expected<T> {
 /// ten or less.
 const KEPT: usize = 2;
 
-/// What is ahead of a body.
+/// What is ahead of a body, on cache lines of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Agenda<T> {
+#[repr(C)]
+pub(super) struct Agenda<T: Real> {
     /// When it leaves its cell.
     pub leaves_cell: T,
     /// Up to when every contact that its own motion leads to is among the kept
@@ -61,10 +62,16 @@ pub(super) struct Agenda<T> {
     len: u16,
     /// Through which face it does.
     pub exit: Exit,
-    /// How often its motion has changed in this period.
-    pub changes: u32,
     /// Its cell's coordinates in the unbounded grid.
     pub cell: [i32; 3],
+    aligned: [T::Pack8; 0],
+}
+
+/// What others ask about a body.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mark {
+    /// How often its motion has changed in this period.
+    pub changes: u32,
     /// What it met last, a body by its index in the scene.
     pub last: PartnerCode,
 }
@@ -82,7 +89,7 @@ pub(super) enum Next<T> {
 
 impl<T: Real> Agenda<T> {
     /// A body of which nothing is known yet.
-    pub fn new(cell: [i32; 3], last: PartnerCode) -> Self {
+    pub fn new(cell: [i32; 3]) -> Self {
         let none = Expected { time: T::ZERO, partner: PartnerCode::NONE, changes: 0 };
         Self {
             leaves_cell: T::ZERO,
@@ -90,9 +97,8 @@ impl<T: Real> Agenda<T> {
             kept: [none; KEPT],
             len: 0,
             exit: Exit { axis: 0, up: false },
-            changes: 0,
             cell,
-            last,
+            aligned: [],
         }
     }
 

@@ -1,19 +1,16 @@
 //! Collide: what happens when the time of a contact has come.
 
 use super::EventDriven;
-use super::agenda::PartnerCode;
+use super::agenda::{Mark, PartnerCode};
 use super::flight::{Flight, Record};
 use crate::bodies::PerBody;
 use crate::contact::{Impulse, Party, collide};
 use crate::engine::plan::Turning;
-use crate::engine::{Event, Partner};
+use crate::engine::{Event, Listener, Partner};
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::surroundings::Space;
 use crate::vec3::Vec3;
-
-/// Who is told of collisions.
-type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
 
 impl<T: Real> EventDriven<T> {
     /// The bodies at two places collide.
@@ -152,9 +149,8 @@ impl<T: Real> EventDriven<T> {
         if self.plan.is_rough {
             self.spins[place] = party.spin;
         }
-        let agenda = &mut self.agendas[place];
-        agenda.changes = agenda.changes.wrapping_add(1);
-        agenda.last = last;
+        let changes = self.marks[place].changes.wrapping_add(1);
+        self.marks[place] = Mark { changes, last };
         self.is_too_fast |= party.velocity.length_squared() > self.too_fast;
     }
 

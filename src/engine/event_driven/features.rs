@@ -41,7 +41,7 @@ impl<T: Real> EventDriven<T> {
         }
         let feature = &self.features[feature as usize];
         // In a periodic box it has left one image only.
-        let is_leaving = self.agendas[at].last == partner
+        let is_leaving = self.marks[at].last == partner
             && (self.periodic.is_none() || self.has_just_left(feature, center, flight.radius));
         let acceleration = self.plan.has_field.then_some(self.gravity);
         let wait =

@@ -1,22 +1,21 @@
 //! Meeting: when two bodies in flight come into contact.
 
 use super::flight::Flight;
+use crate::contact::{ContactTime, Encounter};
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
 use crate::surroundings::Space;
 use crate::vec3::Vec3;
 
-/// When two bodies come into contact.
+/// How two bodies in flight come near each other.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting<L: Lane> {
-    pub meets: L::Mask,
-    /// From the start of the later flight on.
+pub(super) struct Meeting<L> {
+    /// The start of the later flight.
     from: L,
-    approach: L,
-    reach_squared: L,
-    excess: L,
-    discriminant: L,
+    reach: L,
+    /// From then on.
+    encounter: Encounter<L>,
 }
 
 /// Whether two bodies in flight meet, and when.
@@ -45,18 +44,7 @@ pub(super) fn meeting<L: Lane, F: FlightStep, S: Space<L::Scalar>, const STARTS:
     let offset = offset - space.shift(space.turns(nearby) + further);
 
     let reach = a.radius + b.radius;
-    let approach = offset.dot(relative);
-    let reach_squared = reach * reach;
-    let discriminant =
-        relative.length_squared() * reach_squared - offset.cross(relative).length_squared();
-    Meeting {
-        meets: approach.lt(L::ZERO) & discriminant.gt(L::ZERO),
-        from,
-        approach,
-        reach_squared,
-        excess: offset.length_squared() - reach_squared,
-        discriminant,
-    }
+    Meeting { from, reach, encounter: Encounter::new(offset, relative, reach) }
 }
 
 impl<L: Lane> Meeting<L> {
@@ -64,14 +52,14 @@ impl<L: Lane> Meeting<L> {
     /// of a precision whose errors are below the slack.
     #[inline(always)]
     pub fn may_meet(&self, slack: L) -> L::Mask {
-        self.approach.lt(slack) & self.discriminant.gt(L::ZERO)
+        self.encounter.may_meet(slack)
     }
 
     /// Whether the two are in contact at the start of the later flight, or all
     /// but in contact.
     #[inline(always)]
     pub fn is_touching(&self) -> L::Mask {
-        self.excess.lt(self.reach_squared * L::ratio(1, 1024))
+        self.encounter.is_touching(self.reach)
     }
 }
 
@@ -83,27 +71,20 @@ pub(super) const TOGETHER: usize = 64;
 #[derive(Clone, Debug)]
 pub(super) struct Meetings<T> {
     met: u64,
-    from: [T; TOGETHER],
-    approach: [T; TOGETHER],
-    excess: [T; TOGETHER],
-    discriminant: [T; TOGETHER],
+    times: [T; TOGETHER],
 }
 
 impl<T: Real> Meetings<T> {
-    #[inline(always)]
     pub fn new() -> Self {
-        let none = [T::ZERO; TOGETHER];
-        Self { met: 0, from: none, approach: none, excess: none, discriminant: none }
+        Self { met: 0, times: [T::ZERO; TOGETHER] }
     }
 
     /// Puts a pack of meetings down as those from number `first` on.
     #[inline(always)]
     pub fn put<L: Lane<Scalar = T>>(&mut self, first: usize, meeting: &Meeting<L>) {
-        meeting.from.store(&mut self.from[first..]);
-        meeting.approach.store(&mut self.approach[first..]);
-        meeting.excess.store(&mut self.excess[first..]);
-        meeting.discriminant.store(&mut self.discriminant[first..]);
-        self.met |= u64::from(meeting.meets.bits()) << first;
+        let ContactTime { meets, time } = meeting.encounter.contact_time();
+        (meeting.from + time).store(&mut self.times[first..]);
+        self.met |= u64::from(meets.bits()) << first;
     }
 
     /// Takes the number of one who is met, and the time of contact.
@@ -112,10 +93,8 @@ impl<T: Real> Meetings<T> {
         if self.met == 0 {
             return None;
         }
-        let k = self.met.trailing_zeros() as usize % TOGETHER;
+        let number = self.met.trailing_zeros() as usize % TOGETHER;
         self.met &= self.met - 1;
-        let excess = self.excess[k].greater(T::ZERO);
-        let wait = excess / (Lane::sqrt(self.discriminant[k]) - self.approach[k]);
-        Some((k, self.from[k] + wait))
+        Some((number, self.times[number]))
     }
 }

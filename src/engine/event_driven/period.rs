@@ -5,7 +5,7 @@
 //! are sorted by cell and all that is ahead is looked for again.
 
 use super::EventDriven;
-use super::agenda::{Agenda, PartnerCode};
+use super::agenda::{Agenda, Mark, PartnerCode};
 use super::coarse::Scales;
 use super::flight::{Flight, Record};
 use crate::engine::plan::Turning;
@@ -21,10 +21,13 @@ const FLIGHT: f64 = 8.0;
 const FAST: f64 = 8.0;
 
 /// Turns for which a span of the calendar is made.
-const TOGETHER: f64 = 12.0;
+const TOGETHER: f64 = 24.0;
 
 /// Turns for each body in the first period, before any were counted.
 const TURNS: f64 = 64.0;
+
+/// The longest period, about 10²⁴, for bodies that meet nothing or stand still.
+const LONGEST: f64 = (1_u128 << 80) as f64;
 
 impl<T: Real> EventDriven<T> {
     /// Puts the bodies of the scene in their places, and begins the first
@@ -43,7 +46,7 @@ impl<T: Real> EventDriven<T> {
         if self.plan.turning == Turning::FromLastContact {
             self.turned = (0..len).map(|index| (bodies.orientation_of(index), T::ZERO)).collect();
         }
-        self.agendas = vec![Agenda::new([0; 3], PartnerCode::NONE); len];
+        self.marks = vec![Mark { changes: 0, last: PartnerCode::NONE }; len];
         self.begin_period(T::ZERO);
     }
 
@@ -90,6 +93,10 @@ impl<T: Real> EventDriven<T> {
     /// The power of two nearest below the time that bodies take for a few mean
     /// distances: multiples of it are added up without rounding.
     fn choose_period(&mut self) {
+        if !self.plan.has_pairs && self.features.is_empty() {
+            (self.period, self.too_fast) = (T::from_f64(LONGEST), T::from_f64(LONGEST));
+            return;
+        }
         let len = self.records.len();
         let mut squares = vec![0.0; len];
         for (record, &index) in self.records.iter().zip(&self.index) {
@@ -101,7 +108,7 @@ impl<T: Real> EventDriven<T> {
         let spacing = self.spacing.to_f64();
         let fallen = self.gravity.length().to_f64() * spacing;
         let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
-        let flight = (FLIGHT * spacing / speed).clamp(1e-25, 1e25);
+        let flight = (FLIGHT * spacing / speed).clamp(1e-25, LONGEST);
         self.period = T::from_f64(flight.log2().floor().exp2());
         let limit = 2.0 * FAST * speed;
         self.too_fast = T::from_f64((limit * limit).max(1e-30));
@@ -146,14 +153,9 @@ impl<T: Real> EventDriven<T> {
         if !self.turned.is_empty() {
             self.turned = order.iter().map(|place| self.turned[from(place)]).collect();
         }
-        let agendas = &self.agendas;
-        self.agendas = order
-            .iter()
-            .zip(&self.records)
-            .map(|(place, record)| {
-                Agenda::new(cells.cell_of(record.flight().position), agendas[from(place)].last)
-            })
-            .collect();
+        self.marks = order.iter().map(|place| self.marks[from(place)]).collect();
+        let agenda = |record: &Record<T>| Agenda::new(cells.cell_of(record.flight().position));
+        self.agendas = self.records.iter().map(agenda).collect();
         if self.plan.has_pairs {
             for place in 0..self.records.len() {
                 self.cells.insert(self.agendas[place].cell, place as u32);

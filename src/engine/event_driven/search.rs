@@ -151,7 +151,7 @@ impl<T: Real> EventDriven<T> {
     /// Keeps a contact with another body.
     #[inline(always)]
     fn expect(&mut self, place: u32, other: u32, time: T) {
-        let changes = self.agendas[other as usize].changes;
+        let changes = self.marks[other as usize].changes;
         let found = Expected { time, partner: PartnerCode::body(other), changes };
         let index = &self.index;
         let comes_first = |a, b| rank(index, place, a) < rank(index, place, b);
@@ -161,7 +161,7 @@ impl<T: Real> EventDriven<T> {
     /// Whether each of two bodies has met nobody since they met each other.
     #[inline(always)]
     fn met_last(&self, a: usize, b: usize) -> bool {
-        let is_last = |a: usize, b: usize| self.agendas[a].last == PartnerCode::body(self.index[b]);
+        let is_last = |a: usize, b: usize| self.marks[a].last == PartnerCode::body(self.index[b]);
         is_last(a, b) && is_last(b, a)
     }
 }

@@ -1,0 +1,134 @@
+//! Rows: the plan as a person reads it.
+
+use core::fmt;
+
+use super::{Plan, Turning};
+use crate::engine::{EngineKind, Impact};
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut row = |what: &str, how: &str| writeln!(f, "{what:<22}{how}");
+        let is_stepped = self.engine == EngineKind::Stepped;
+        row("engine", if is_stepped { "stepped" } else { "event-driven" })?;
+        row("bodies", &format!("{} in {}", self.bodies, self.precision))?;
+        row("lanes", &self.lanes())?;
+        row("threads", &self.threads.to_string())?;
+        if !is_stepped {
+            row("time", "in periods with an origin of their own, a power of two long")?;
+        }
+        row("flight", &self.flight())?;
+        row(
+            "space",
+            match (self.is_periodic, is_stepped) {
+                (false, _) => "open: no wrapping",
+                (true, true) => {
+                    "periodic: positions are wrapped, differences taken to the nearest image"
+                }
+                (true, false) => {
+                    "periodic: wrapped at collisions, differences taken to the nearest image"
+                }
+            },
+        )?;
+        row("pairs", self.pairs())?;
+        row("surroundings", &self.surroundings())?;
+        let contacts = self.has_pairs || self.features > 0;
+        row(
+            "impact",
+            match (contacts, self.engine, self.impact) {
+                (false, ..) => "skipped: there are no contacts",
+                (true, EngineKind::EventDriven, _) => "at its exact time, one after the other",
+                (true, EngineKind::Stepped, Impact::EndOfStep) => "at the end of the step",
+                (true, EngineKind::Stepped, Impact::SubStep) => {
+                    "at the time of impact inside the step"
+                }
+            },
+        )?;
+        row(
+            "surfaces",
+            match (contacts, self.is_rough) {
+                (false, _) => "skipped: there are no contacts",
+                (true, false) => "smooth: spins are never read",
+                (true, true) => "rough: spins are read and changed at contacts",
+            },
+        )?;
+        row(
+            "masses",
+            match (contacts, self.has_masses) {
+                (false, _) => "skipped: there are no contacts",
+                (true, false) => "one for all, none is loaded",
+                (true, true) => "loaded at contacts",
+            },
+        )?;
+        row(
+            "orientations",
+            match self.turning {
+                Turning::Never => "skipped: nothing spins",
+                Turning::FromStart => "one closed form from the start, when asked",
+                Turning::FromLastContact => "a closed form from the last contact, when asked",
+                Turning::EachStep => "turned in each step, as the scene wants it",
+            },
+        )
+    }
+}
+
+impl Plan {
+    fn lanes(&self) -> String {
+        let (sweep, gather) = (self.sweep_lanes, self.gather_lanes);
+        match (self.engine, self.has_screening) {
+            (EngineKind::Stepped, _) => format!("{sweep} in sweeps, {gather} in gathers"),
+            (EngineKind::EventDriven, true) => {
+                format!("{gather} in contact times, {sweep} where neighbours are screened")
+            }
+            (EngineKind::EventDriven, false) => format!("{gather} in contact times"),
+        }
+    }
+
+    fn flight(&self) -> String {
+        match (self.engine, self.has_field) {
+            (EngineKind::Stepped, true) => {
+                format!("{}: positions and velocities are updated", self.integrator)
+            }
+            (EngineKind::Stepped, false) => {
+                "no field: positions are updated, velocities only read".to_owned()
+            }
+            (EngineKind::EventDriven, true) => {
+                "a parabola, evaluated where a body is met or asked for".to_owned()
+            }
+            (EngineKind::EventDriven, false) => {
+                "a straight line, evaluated where a body is met or asked for".to_owned()
+            }
+        }
+    }
+
+    fn pairs(&self) -> &'static str {
+        match (self.engine, self.has_pairs, self.has_radii) {
+            (_, false, _) => "skipped: bodies do not meet each other",
+            (EngineKind::Stepped, true, false) => {
+                "grid and candidate list; one radius for all, none is loaded"
+            }
+            (EngineKind::Stepped, true, true) => {
+                "grids by size and candidate list; radii are loaded"
+            }
+            (EngineKind::EventDriven, true, _) if self.has_screening => {
+                "cells; neighbours are screened in a coarser precision"
+            }
+            (EngineKind::EventDriven, true, _) => "cells; every neighbour is tried",
+        }
+    }
+
+    fn surroundings(&self) -> String {
+        let count = match self.features {
+            0 => return "skipped: there is nothing to meet".to_owned(),
+            1 => "1 feature".to_owned(),
+            count => format!("{count} features"),
+        };
+        let how = match (self.engine, self.has_field) {
+            (EngineKind::Stepped, _) => "tested where a body is near",
+            (EngineKind::EventDriven, false) => "met by quadratics where a body's cell is near",
+            (EngineKind::EventDriven, true) => {
+                "met by quadratics, what is curved by quartics, where a body's cell is near"
+            }
+        };
+        format!("{count}, {how}")
+    }
+}
