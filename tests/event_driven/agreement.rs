@@ -108,8 +108,8 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
         Kind::PeriodicSolids => random.random_range(6.0..8.0),
         _ => random.random_range(4.0..8.0),
     });
-    // Far off, where positions have three digits less.
-    let lower = if random.random_bool(0.2) { [1000.0, -2000.0, 0.0] } else { [0.0; 3] };
+    // Far off, where positions have four digits less.
+    let lower = if random.random_bool(0.2) { [1e4, -2e4, 0.0] } else { [0.0; 3] };
     let upper = core::array::from_fn(|k| lower[k] + sides[k]);
     // Some fast ones among many that hardly move.
     let decades = if random.random_bool(0.25) { 3.0 } else { 0.0 };
@@ -145,10 +145,10 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
                 let d = (center[k] - other[k]).abs();
                 if is_periodic { d.min(sides[k] - d) } else { d }
             });
-            distance.map(|d| d * d).sum::<f64>().sqrt() > radius + reach + 1e-3
+            distance.map(|d| d * d).sum::<f64>().sqrt() > radius + reach + 0.02
         };
         let gap = |feature: &Feature<f64>| feature.clearance(Vec3::from(center), radius).gap;
-        let gaps = features.iter().all(|feature| gap(feature) > 1e-3);
+        let gaps = features.iter().all(|feature| gap(feature) > 0.02);
         if placed.len() == count || !gaps || !placed.iter().all(is_far) {
             continue;
         }

@@ -181,8 +181,10 @@ impl<'a, T: Real> Reference<'a, T> {
         let times = self.images(nearby).filter_map(|shift| {
             let center = ball.position - shift;
             let gap = feature.clearance(center, ball.radius).gap.abs();
-            let is_here = self.scene.periodic.is_none() || gap < self.spacing * T::ratio(1, 1024);
-            let is_leaving = is_last && is_here;
+            let farthest = center.to_array().map(T::abs).into_iter().fold(T::ZERO, T::greater);
+            let rounding = T::whole(64) * T::EPSILON * farthest;
+            let near = (self.spacing * T::ratio(1, 1024)).greater(rounding);
+            let is_leaving = is_last && (self.scene.periodic.is_none() || gap < near);
             feature.contact_time(center, ball.velocity, acceleration, ball.radius, is_leaving)
         });
         times.reduce(T::lesser).map(|wait| ball.since + wait)

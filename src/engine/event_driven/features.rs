@@ -4,8 +4,10 @@ use super::EventDriven;
 use super::agenda::{Expected, PartnerCode};
 use super::near::Image;
 use super::search::rank;
+use crate::contact::greatest_component;
 use crate::real::Real;
-use crate::surroundings::Space;
+use crate::surroundings::{Feature, Space};
+use crate::vec3::Vec3;
 
 impl<T: Real> EventDriven<T> {
     /// Looks for contacts of the body at a place with all features near it.
@@ -53,13 +55,10 @@ impl<T: Real> EventDriven<T> {
     }
 
     /// Whether a sphere that comes from a contact with some image of a feature
-    /// comes from this one.
-    fn has_just_left(
-        &self,
-        feature: &crate::surroundings::Feature<T>,
-        center: crate::vec3::Vec3<T>,
-        radius: T,
-    ) -> bool {
-        feature.clearance(center, radius).gap.abs() < self.spacing * T::ratio(1, 1024)
+    /// comes from this one: whether it is there, but for the rounding of places.
+    fn has_just_left(&self, feature: &Feature<T>, center: Vec3<T>, radius: T) -> bool {
+        let rounding = T::whole(64) * T::EPSILON * greatest_component(center);
+        let near = (self.spacing * T::ratio(1, 1024)).greater(rounding);
+        feature.clearance(center, radius).gap.abs() < near
     }
 }
