@@ -9,7 +9,7 @@ mod tallies;
 use serde::{Deserialize, Serialize};
 
 pub use event::{Event, Listener, Partner};
-pub use event_driven::EventDriven;
+pub use event_driven::{Effort, EventDriven};
 pub use plan::{Plan, Turning};
 pub use stepped::Stepped;
 
@@ -109,7 +109,7 @@ pub enum EngineError {
         dt: f64,
     },
     /// An event-driven world can't be advanced by this.
-    #[error("a world can't be advanced by {0}; give a duration from 0 up")]
+    #[error("a world can't be advanced by {0}; give a finite duration from 0 up")]
     NoDuration(f64),
     /// Collision follows upon collision while time stands still.
     #[error(

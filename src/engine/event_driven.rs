@@ -45,6 +45,20 @@ use meeting::Meetings;
 use near::Near;
 use search::{Search, further, searcher};
 
+/// What it took to find collisions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Effort {
+    /// Pairs whose contact was looked for.
+    pub tried: u64,
+    /// Those of them that the coarse precision left to the full one.
+    pub remaining: u64,
+    /// How often bodies crossed from one cell to the next.
+    pub crossings: u64,
+    /// How often a body's contacts were looked for again, since all that it
+    /// knew of had been overtaken.
+    pub searches: u64,
+}
+
 /// A scene in motion, from collision to collision.
 ///
 /// ```
@@ -124,10 +138,7 @@ pub struct EventDriven<T: Real> {
 
     collisions: Collisions,
     tallies: Tallies,
-    tried: u64,
-    crossings: u64,
-    screened: u64,
-    searches: u64,
+    effort: Effort,
 }
 
 impl<T: Real> EventDriven<T> {
@@ -172,8 +183,10 @@ impl<T: Real> EventDriven<T> {
             ),
         };
         let (cells, spacing) = Cells::fitting(region, radius + radius, len);
+        let is_periodic = scene.periodic.is_some();
         let near = Near::new(&features, &images, &cells, region.ends, radius);
-        let (further, coarse_further) = (further(&cells), further(&cells));
+        let (further, coarse_further) =
+            (further(&cells, is_periodic), further(&cells, is_periodic));
         let found = vec![0; cells.most()];
         let has_cells = plan.has_pairs || near.has_cells();
         let mut world = Self {
@@ -195,7 +208,7 @@ impl<T: Real> EventDriven<T> {
             cells,
             has_cells,
             calendar: Calendar::new(),
-            search_bodies: searcher(&plan, scene.periodic.is_some()),
+            search_bodies: searcher(&plan, is_periodic),
             found,
             meetings: Meetings::new(),
             coarse: Coarse::new(scene.gravity, scene.periodic),
@@ -212,10 +225,7 @@ impl<T: Real> EventDriven<T> {
             standstill: 0,
             collisions: Collisions::default(),
             tallies: Tallies::default(),
-            tried: 0,
-            crossings: 0,
-            screened: 0,
-            searches: 0,
+            effort: Effort::default(),
             plan,
             bodies,
         };
@@ -261,7 +271,7 @@ impl<T: Real> EventDriven<T> {
 
     /// The time that is a duration away.
     fn after(&self, duration: f64) -> Result<f64, EngineError> {
-        if duration >= 0.0 {
+        if duration >= 0.0 && duration.is_finite() {
             return Ok(self.time + duration);
         }
         Err(EngineError::NoDuration(duration))
@@ -334,5 +344,4 @@ impl<T: Real> EventDriven<T> {
             }
         }
     }
-
 }

@@ -123,7 +123,7 @@ impl<T: Real> Agenda<T> {
         found: Expected<T>,
         comes_first: impl Fn(PartnerCode, PartnerCode) -> bool,
     ) {
-        if !(found.time < self.complete_until) {
+        if found.time.ge(self.complete_until) {
             return;
         }
         let len = self.len as usize;

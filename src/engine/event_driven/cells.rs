@@ -14,7 +14,8 @@ const MARGIN: i32 = 128;
 /// Side of a cell in mean distances of bodies, where they are far apart.
 const CROWDED: f64 = 0.8;
 
-const MOST_CELLS: usize = 64;
+/// The most cells along an axis.
+const MOST_CELLS: i64 = 1 << 20;
 
 /// No cell.
 const NOWHERE: u32 = u32::MAX;
@@ -74,41 +75,33 @@ impl<T: Real> Cells<T> {
         let volume: f64 = extent.iter().map(|side| side.to_f64()).product();
         let mean = (volume / len.max(1) as f64).cbrt();
         let spacing = T::from_f64(if mean > 0.0 { mean } else { 1.0 }).greater(reach);
-        let side = T::from_f64(mean * CROWDED);
-        let most = ((MOST_CELLS * len.max(8)) as f64).cbrt() as i32;
-        let _ = most;
-        (Self::new(region, reach, side, 1 << 20), spacing)
+        (Self::new(region, reach, T::from_f64(mean * CROWDED)), spacing)
     }
 
-    /// A grid of empty cells with sides of at least `reach`, of `spacing` if
-    /// that is more.
-    pub fn new(region: Region<T>, reach: T, spacing: T, most: i32) -> Self {
-        let least = reach * T::ratio(MARGIN + 4, MARGIN);
-        let wanted = if least < spacing { spacing } else { least };
-        let lower = region.lower.to_array();
-        let upper = region.upper.to_array();
-        let mut counts = [1; 3];
+    /// A grid of empty cells with sides of at least `reach`, of `wanted` if that
+    /// is more.
+    fn new(region: Region<T>, reach: T, wanted: T) -> Self {
+        let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
+        let farthest = lower.iter().chain(&upper).fold(T::ZERO, |most, c| most.greater(c.abs()));
+        // Far from the origin places are rounded by more than a margin for
+        // bodies that stop at a face.
+        let rounding = farthest * T::EPSILON * T::whole(64);
+        let least = reach * T::ratio(MARGIN + 4, MARGIN) + rounding * T::whole(4);
+        let wanted = wanted.greater(least);
         let mut axes = core::array::from_fn(|k| {
             let extent = upper[k] - lower[k];
-            let fits = |side: T| (extent / side).whole_part().clamp(1, i64::from(most)) as i32;
+            let fits = |side: T| (extent / side).whole_part().clamp(1, MOST_CELLS) as i32;
             let mut count = fits(wanted);
             // Every cell of a narrow box neighbours every other one.
             if region.ends == Ends::Joined && count < 4 {
                 count = fits(least).max(2);
             }
-            counts[k] = count;
             let side = extent / T::whole(count);
             Axis { lower: lower[k], side, count, ends: region.ends, parts: Vec::new() }
         });
-        number(&mut axes);
-        let cells = axes.iter().map(|axis| blocks(axis.count) as usize).product::<usize>();
-        let [x, y, z] = axes.each_ref().map(|axis| axis.side * T::ratio(1, MARGIN));
-        Self {
-            axes,
-            margin: Vec3::new(x, y, z),
-            blocks: 1,
-            places: vec![[0; STRIDE]; cells * (BLOCK * BLOCK * BLOCK) as usize],
-        }
+        let numbers = number(&mut axes);
+        let margins = axes.each_ref().map(|axis| axis.side * T::ratio(1, MARGIN) + rounding);
+        Self { axes, margin: Vec3::from(margins), blocks: 1, places: vec![[0; STRIDE]; numbers] }
     }
 
     /// Whether the box is so narrow along an axis that two images of a pair can
@@ -382,20 +375,17 @@ fn slot(number: usize) -> usize {
 /// Cells along the side of a block that lies together in memory.
 const BLOCK: i32 = 4;
 
-/// Blocks along an axis.
-fn blocks(cells: i32) -> u32 {
-    (cells as u32).div_ceil(BLOCK as u32)
-}
-
-/// Numbers the cells block by block.
-fn number<T>(axes: &mut [Axis<T>; 3]) {
-    let blocks = axes.each_ref().map(|axis| blocks(axis.count));
-    let within = [1, BLOCK, BLOCK * BLOCK].map(|step| step as u32);
-    let whole = (BLOCK * BLOCK * BLOCK) as u32;
+/// Numbers the cells block by block, and returns how many numbers there are.
+fn number<T>(axes: &mut [Axis<T>; 3]) -> usize {
+    let counts = axes.each_ref().map(|axis| axis.count as u32);
+    let sides = counts.map(|count| count.min(BLOCK as u32));
+    let within = [1, sides[0], sides[0] * sides[1]];
+    let whole = sides[0] * sides[1] * sides[2];
+    let blocks: [u32; 3] = core::array::from_fn(|k| counts[k].div_ceil(sides[k]));
     let between = [whole, whole * blocks[0], whole * blocks[0] * blocks[1]];
     for (k, axis) in axes.iter_mut().enumerate() {
         let part = |cell: i32| {
-            let (block, inside) = ((cell / BLOCK) as u32, (cell % BLOCK) as u32);
+            let (block, inside) = (cell as u32 / sides[k], cell as u32 % sides[k]);
             block * between[k] + inside * within[k]
         };
         let count = axis.count;
@@ -408,4 +398,5 @@ fn number<T>(axes: &mut [Axis<T>; 3]) {
         axis.parts =
             (0..count).map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)]).collect();
     }
+    (between[2] * blocks[2]) as usize
 }

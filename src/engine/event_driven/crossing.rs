@@ -74,7 +74,7 @@ impl<T: Real> EventDriven<T> {
 
     /// Takes the body at a place to the next cell, and looks who is ahead.
     pub(super) fn cross(&mut self, place: u32, now: T) {
-        self.crossings += 1;
+        self.effort.crossings += 1;
         let agenda = &mut self.agendas[place as usize];
         let Exit { axis, up } = agenda.exit;
         let axis = usize::from(axis);

@@ -37,7 +37,7 @@ impl<T: Real> EventDriven<T> {
             // In one step: an image has the same bits from every cell.
             let image = space.turns(self.images[image as usize]);
             let turns = self.cells.turns(self.agendas[at].cell);
-            center = center - space.shift(turns + image);
+            center -= space.shift(turns + image);
         }
         let feature = &self.features[feature as usize];
         // In a periodic box it has left one image only.

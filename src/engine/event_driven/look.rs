@@ -1,8 +1,8 @@
 //! Look: what can be seen of the world at any time, without touching it.
 
-use super::EventDriven;
 use super::agenda::{Agenda, Mark};
 use super::flight::Record;
+use super::{Effort, EventDriven};
 use crate::bodies::Bodies;
 use crate::column::Column;
 use crate::engine::Collisions;
@@ -75,11 +75,10 @@ impl<T: Real> EventDriven<T> {
         T::from_f64(self.time - self.origin.value())
     }
 
-    /// Numbers that tell what the engine does: pairs tried, crossings of cells,
-    /// searches anew.
-    #[doc(hidden)]
-    pub fn work(&self) -> [u64; 4] {
-        [self.tried, self.crossings, self.searches, self.screened]
+    /// What it took to find the collisions so far.
+    #[must_use]
+    pub fn effort(&self) -> Effort {
+        self.effort
     }
 
     /// The bodies now, in the scene's order.

@@ -5,8 +5,8 @@ use super::agenda::{Expected, PartnerCode};
 use super::cells::Cells;
 use super::flight::Flight;
 use super::meeting::{TOGETHER, meeting};
-use crate::lane::Lane;
 use crate::engine::plan::Plan;
+use crate::lane::Lane;
 use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use crate::real::Real;
 use crate::surroundings::{OpenSpace, Space};
@@ -60,7 +60,7 @@ impl<T: Real> EventDriven<T> {
         S: Space<T>,
         R: Space<T::Coarse>,
     {
-        self.tried += len as u64;
+        self.effort.tried += len as u64;
         if self.records[place as usize].flight().since == now {
             let len = self.screened::<C, F, R, true>(place, len, now, coarse);
             self.search_packs::<L, F, S, true>(place, len, now, space);
@@ -112,7 +112,7 @@ impl<T: Real> EventDriven<T> {
     {
         let packs = len.div_ceil(L::WIDTH);
         self.found[len..packs * L::WIDTH].fill(place);
-        self.screened += len as u64;
+        self.effort.remaining += len as u64;
         let own = self.records[place as usize].flight();
         let (flight, gravity) = (Flight::<L>::splat(&own), Vec3::<L>::splat(self.gravity));
         let at = L::splat(now);
@@ -129,7 +129,7 @@ impl<T: Real> EventDriven<T> {
                 }
                 while let Some((k, time)) = self.meetings.take() {
                     let other = self.found[start + k];
-                    if !(time < self.agendas[place as usize].complete_until()) {
+                    if time.ge(self.agendas[place as usize].complete_until()) {
                         continue;
                     }
                     if self.met_last(place as usize, other as usize) {
@@ -209,14 +209,15 @@ where
     }
 }
 
-/// The images of a pair that can be near at once.
-pub(super) fn further<T: Real, R: Real>(cells: &Cells<T>) -> Vec<Vec3<R>> {
-    let along = |axis: usize| if cells.is_narrow(axis) { -1..=1 } else { 0..=0 };
+/// The images of a pair, besides the nearest, that can be near at once, and the
+/// nearest, in whole boxes.
+pub(super) fn further<T: Real, R: Real>(cells: &Cells<T>, is_periodic: bool) -> Vec<Vec3<R>> {
+    let is_narrow = |axis: usize| is_periodic && cells.is_narrow(axis);
+    let along = |axis: usize| if is_narrow(axis) { -1..=1 } else { 0..=0 };
     let mut further = Vec::new();
-    for z in along(2) {
-        for y in along(1) {
-            let whole = R::whole;
-            further.extend(along(0).map(|x| Vec3::new(whole(x), whole(y), whole(z))));
+    for z in along(2).map(R::whole) {
+        for y in along(1).map(R::whole) {
+            further.extend(along(0).map(|x| Vec3::new(R::whole(x), y, z)));
         }
     }
     further

@@ -54,7 +54,7 @@ impl<T: Real> EventDriven<T> {
         match self.agendas[place as usize].next() {
             Next::LeavesCell => self.cross(place, time),
             Next::Searches => {
-                self.searches += 1;
+                self.effort.searches += 1;
                 self.search(place, time);
             }
             Next::Meets(expected) => match expected.partner.decoded() {
