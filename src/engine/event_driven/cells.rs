@@ -12,7 +12,7 @@ use crate::vec3::Vec3;
 const MARGIN: i32 = 128;
 
 /// Side of a cell in mean distances of bodies, where they are far apart.
-const CROWDED: f64 = 0.8;
+const CROWDED: f64 = 0.95;
 
 /// The most cells along an axis.
 const MOST_CELLS: i64 = 1 << 20;
