@@ -11,8 +11,12 @@ use crate::vec3::Vec3;
 /// cell's side: one that stops at a face does not cross it to and fro.
 const MARGIN: i32 = 128;
 
-/// Side of a cell in mean distances of bodies, where they are far apart.
-const CROWDED: f64 = 0.95;
+/// Where the mean distance of bodies is more than so many diameters, they are
+/// far apart: cells of their size would be empty, and crossed all the time.
+const FAR_APART: f64 = 1.5;
+
+/// Side of a cell in mean distances then.
+const FAR_SIDE: f64 = 0.95;
 
 /// The most cells along an axis.
 const MOST_CELLS: i64 = 1 << 20;
@@ -75,7 +79,9 @@ impl<T: Real> Cells<T> {
         let volume: f64 = extent.iter().map(|side| side.to_f64()).product();
         let mean = (volume / len.max(1) as f64).cbrt();
         let spacing = T::from_f64(if mean > 0.0 { mean } else { 1.0 }).greater(reach);
-        (Self::new(region, reach, T::from_f64(mean * CROWDED)), spacing)
+        let is_far = mean > FAR_APART * reach.to_f64();
+        let wanted = if is_far { T::from_f64(FAR_SIDE * mean) } else { reach };
+        (Self::new(region, reach, wanted), spacing)
     }
 
     /// A grid of empty cells with sides of at least `reach`, of `wanted` if that
