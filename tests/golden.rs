@@ -15,7 +15,7 @@
 mod common;
 
 use carom::contact::{Party, collide, contact_time};
-use carom::engine::{Impact, Stepped};
+use carom::engine::{EventDriven, Impact, Stepped};
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
@@ -69,6 +69,14 @@ const GOLDEN: &[Entry] = &[
         || engine::<f64>("hard-sphere-fluid", Impact::SubStep),
         0x9640_2d96_6548_2931,
     ),
+    ("hard-sphere-fluid, events f32", || events::<f32>("hard-sphere-fluid"), 0x5c42_1c57_15e4_265a),
+    ("hard-sphere-fluid, events f64", || events::<f64>("hard-sphere-fluid"), 0xfc30_cd39_e79e_0ccd),
+    ("rough-gas, events f32", || events::<f32>("rough-gas"), 0xee18_7f57_096e_b860),
+    ("rough-gas, events f64", || events::<f64>("rough-gas"), 0x2443_0989_c7ce_fe8f),
+    ("mixture, events f32", || events::<f32>("mixture"), 0x3c03_2b27_df59_4db7),
+    ("mixture, events f64", || events::<f64>("mixture"), 0x0f27_2c91_fb69_0ba4),
+    ("wedge, events f32", || events::<f32>("wedge"), 0x8b4b_9153_d11e_6406),
+    ("wedge, events f64", || events::<f64>("wedge"), 0x507a_b8f0_8c26_42f6),
 ];
 
 #[test]
@@ -205,5 +213,14 @@ fn engine<T: Real>(name: &str, impact: Impact) -> u64 {
     scene.stepped.impact = impact;
     let mut world = Stepped::new(scene).unwrap();
     world.advance_steps(100);
+    state_hash(&world.bodies()).0
+}
+
+/// The state of a built-in scene after some collisions of the event-driven
+/// engine.
+fn events<T: Real>(name: &str) -> u64 {
+    let scene = SceneFile::builtin(name).unwrap().build::<T>().unwrap();
+    let mut world = EventDriven::new(scene).unwrap();
+    world.advance_until(20_000, 1e3).unwrap();
     state_hash(&world.bodies()).0
 }
