@@ -8,12 +8,13 @@
 //! Each row is measured in a process of its own, so that the greatest resident
 //! size is its own too; that includes making the scene.
 
+#[path = "common/process.rs"]
+mod process;
 #[path = "common/scenes.rs"]
 mod scenes;
 
 use std::env;
 use std::error::Error;
-use std::fs;
 use std::process::Command;
 use std::time::Instant;
 
@@ -81,16 +82,8 @@ fn row<T: Real>(bodies: usize, threads: usize) -> Result<String, Box<dyn Error>>
     });
     times.sort_by(f64::total_cmp);
     let bytes = world.bytes() as f64 / bodies as f64;
-    let peak = peak_resident().map_or("–".to_owned(), |bytes| format!("{:.0}", bytes * 1e-6));
+    let peak =
+        process::peak_resident().map_or("–".to_owned(), |bytes| format!("{:.0}", bytes * 1e-6));
     let (precision, time) = (T::NAME, times[RUNS / 2]);
     Ok(format!("| {precision} | {threads} | {bodies} | {time:.1} | {bytes:.0} | {peak} |"))
-}
-
-/// The greatest resident size of this process so far, bytes; `None` where the
-/// system does not say.
-fn peak_resident() -> Option<f64> {
-    let status = fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(kibibytes * 1024.0)
 }
