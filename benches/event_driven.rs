@@ -196,12 +196,12 @@ impl Row {
 fn serve<T: Real>(row: &Row, melting: u64) -> Result<(), Box<dyn Error>> {
     let execution = Execution { lanes: row.lanes, threads: 1 };
     let mut world = EventDriven::with_execution(row.scene::<T>()?, execution)?;
-    world.advance_until(melting * row.bodies / 2, f64::INFINITY)?;
+    world.advance_until(melting * row.bodies / 2, 1e9)?;
     println!();
     for line in io::stdin().lines() {
         let collisions = line?.parse()?;
         let start = Instant::now();
-        let collisions = world.advance_until(collisions, f64::INFINITY)?;
+        let collisions = world.advance_until(collisions, 1e9)?;
         let time = start.elapsed().as_secs_f64() / collisions as f64;
         let bodies = row.bodies as f64;
         let peak = process::peak_resident().unwrap_or(f64::NAN) / bodies;

@@ -8,7 +8,7 @@ mod time;
 
 pub(crate) use approach::{Approach, greatest_component};
 pub(crate) use fall::{Start, fall_of_height};
-pub use impulse::{Impulse, Party, collide};
+pub use impulse::{Impulse, Party, collide, collide_spread};
 pub use surface::Surface;
 pub(crate) use time::Encounter;
 pub use time::{ContactTime, PastContact, contact_time, past_contact};

@@ -69,14 +69,14 @@ const GOLDEN: &[Entry] = &[
         || engine::<f64>("hard-sphere-fluid", Impact::SubStep),
         0x9640_2d96_6548_2931,
     ),
-    ("hard-sphere-fluid, events f32", || events::<f32>("hard-sphere-fluid"), 0x5c42_1c57_15e4_265a),
-    ("hard-sphere-fluid, events f64", || events::<f64>("hard-sphere-fluid"), 0xfc30_cd39_e79e_0ccd),
-    ("rough-gas, events f32", || events::<f32>("rough-gas"), 0xee18_7f57_096e_b860),
-    ("rough-gas, events f64", || events::<f64>("rough-gas"), 0x2443_0989_c7ce_fe8f),
-    ("mixture, events f32", || events::<f32>("mixture"), 0x3c03_2b27_df59_4db7),
-    ("mixture, events f64", || events::<f64>("mixture"), 0x0f27_2c91_fb69_0ba4),
-    ("wedge, events f32", || events::<f32>("wedge"), 0x8b4b_9153_d11e_6406),
-    ("wedge, events f64", || events::<f64>("wedge"), 0x507a_b8f0_8c26_42f6),
+    ("hard-sphere-fluid, events f32", || events::<f32>("hard-sphere-fluid"), 0x6369_0c74_c585_d639),
+    ("hard-sphere-fluid, events f64", || events::<f64>("hard-sphere-fluid"), 0x0444_57df_e512_4035),
+    ("rough-gas, events f32", || events::<f32>("rough-gas"), 0x69a2_4fd0_ad7e_8027),
+    ("rough-gas, events f64", || events::<f64>("rough-gas"), 0x8554_f6a0_10af_ae6f),
+    ("mixture, events f32", || events::<f32>("mixture"), 0xd550_4959_437f_7ed2),
+    ("mixture, events f64", || events::<f64>("mixture"), 0x60ab_fb06_a378_9828),
+    ("wedge, events f32", || events::<f32>("wedge"), 0x4f92_cbf3_ff8d_9041),
+    ("wedge, events f64", || events::<f64>("wedge"), 0xac09_e4a9_d303_8057),
 ];
 
 #[test]

@@ -134,11 +134,11 @@ fn case<T: Real>(surface: Surface, diameter: f64, points: &[u64]) -> Result<Case
 /// The change of the energy at every point of one run, in ε of the energy.
 fn run<T: Real>(fluid: Fluid, points: &[u64]) -> Result<Vec<f64>, RunError> {
     let mut world = EventDriven::new(fluid.scene::<T>()?)?;
-    world.advance_until(MELTING * BODIES / 2, f64::INFINITY)?;
+    world.advance_until(MELTING * BODIES / 2, 1e9)?;
     let (start, molten) = (world.bodies(), world.collisions().total());
     let mut changes = Vec::new();
     for point in points {
-        world.advance_until(molten + point - world.collisions().total(), f64::INFINITY)?;
+        world.advance_until(molten + point - world.collisions().total(), 1e9)?;
         changes.push(energy::relative_change(&world.bodies(), &start) / T::EPSILON.to_f64());
     }
     Ok(changes)

@@ -148,3 +148,59 @@ pub fn collide<L: Lane, const ROUGH: bool>(
     }
     Impulse { approaching, normal, tangential }
 }
+
+/// [`collide`], in other units for each contact, so that roundings do not add
+/// up.
+///
+/// Equal spheres always meet at one distance, and equal masses have one sum:
+/// `x·x` and `−2/(1/m₁ + …)` then are the same numbers in every collision, and
+/// round to the same side. The energy of a gas drifts with that, by up to
+/// 0.07 ε of a particle's in each of its collisions, linearly in their number.
+/// Here lengths and inverse masses are multiplied by `λ = 1 + V_x²/V²` first,
+/// which the impulse does not depend on: what is rounded differs from one
+/// contact to the next, and errors grow as the square root of the number.
+///
+/// ```
+/// use carom::contact::{Party, collide_spread};
+/// use carom::vec3::Vec3;
+///
+/// let rest = Party {
+///     velocity: Vec3::new(0.0, 0.0, 0.0),
+///     spin: Vec3::new(0.0, 0.0, 0.0),
+///     inverse_mass: 1.0,
+///     inverse_inertia: 10.0,
+///     share: 0.5,
+/// };
+/// let mut a = Party { velocity: Vec3::new(1.0, 0.0, 0.0), ..rest };
+/// let mut b = rest;
+/// let impulse = collide_spread::<f64, false>(Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
+/// assert_eq!(impulse.normal.x, -1.0);
+/// assert_eq!(b.velocity.x, 1.0);
+/// ```
+#[inline(always)]
+pub fn collide_spread<L: Lane, const ROUGH: bool>(
+    offset: Vec3<L>,
+    a: &mut Party<L>,
+    b: &mut Party<L>,
+) -> Impulse<L> {
+    let relative = a.velocity - b.velocity;
+    let speed_squared = relative.length_squared();
+    let is_moving = speed_squared.gt(L::ZERO);
+    let part = relative.x * relative.x / L::select(is_moving, speed_squared, L::ONE);
+    let factor = L::ONE + part;
+    let scaled = |party: &Party<L>| Party {
+        inverse_mass: party.inverse_mass * factor,
+        inverse_inertia: party.inverse_inertia * factor,
+        share: party.share / factor,
+        ..*party
+    };
+    let (mut first, mut second) = (scaled(a), scaled(b));
+    let impulse = collide::<L, ROUGH>(offset * factor, &mut first, &mut second);
+    (a.velocity, a.spin) = (first.velocity, first.spin);
+    (b.velocity, b.spin) = (second.velocity, second.spin);
+    Impulse {
+        approaching: impulse.approaching,
+        normal: impulse.normal * factor,
+        tangential: impulse.tangential * factor,
+    }
+}

@@ -3,7 +3,7 @@
 //! kept but the flights.
 
 use carom::bodies::PerBody;
-use carom::contact::{Impulse, Party, Surface, collide};
+use carom::contact::{Impulse, Party, Surface, collide_spread};
 use carom::engine::{Event, Partner};
 use carom::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use carom::observe::CompensatedSum;
@@ -213,8 +213,8 @@ impl<'a, T: Real> Reference<'a, T> {
 
     fn collide(&self, offset: Vec3<T>, a: &mut Party<T>, b: &mut Party<T>) -> Impulse<T> {
         match self.scene.surface {
-            Surface::Smooth => collide::<T, false>(offset, a, b),
-            Surface::Rough => collide::<T, true>(offset, a, b),
+            Surface::Smooth => collide_spread::<T, false>(offset, a, b),
+            Surface::Rough => collide_spread::<T, true>(offset, a, b),
         }
     }
 

@@ -4,7 +4,7 @@ use super::EventDriven;
 use super::agenda::{Mark, PartnerCode};
 use super::flight::{Flight, Record};
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Party, collide};
+use crate::contact::{Impulse, Party, collide_spread};
 use crate::engine::plan::Turning;
 use crate::engine::{Event, Listener, Partner};
 use crate::motion::rotation::turned;
@@ -133,9 +133,9 @@ impl<T: Real> EventDriven<T> {
     #[inline(always)]
     fn impulse(&self, offset: Vec3<T>, a: &mut Party<T>, b: &mut Party<T>) -> Impulse<T> {
         if self.plan.is_rough {
-            collide::<T, true>(offset, a, b)
+            collide_spread::<T, true>(offset, a, b)
         } else {
-            collide::<T, false>(offset, a, b)
+            collide_spread::<T, false>(offset, a, b)
         }
     }
 
