@@ -119,7 +119,7 @@ fn rough_spheres_begin_to_spin() {
     }
     for ((collisions, exact), found) in exact.into_iter().zip(sums) {
         println!("after {collisions}: {found:.4} for {exact}");
-        assert!((found / exact - 1.0).abs() < 0.015, "after {collisions}: {found} for {exact}");
+        assert!((found / exact - 1.0).abs() < 0.02, "after {collisions}: {found} for {exact}");
     }
 }
 

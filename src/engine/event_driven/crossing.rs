@@ -2,7 +2,6 @@
 
 use super::EventDriven;
 use crate::lane::Lane;
-use crate::motion::integrator::{Coasting, VelocityVerlet};
 use crate::real::Real;
 
 /// The face of a cell that a body leaves it through.
@@ -12,8 +11,8 @@ pub(super) struct Exit {
     pub up: bool,
 }
 
-/// When a point at `place` that moves with `speed` and `acceleration` leaves the
-/// span from `low` to `high`, and whether upwards. It is inside, or beyond an
+/// How long a point at `place` that moves with `speed` and `acceleration` stays
+/// in the span from `low` to `high`, and whether it leaves upwards. It is inside, or beyond an
 /// end by rounding.
 fn leaves<T: Real>([low, high]: [T; 2], place: T, speed: T, acceleration: T) -> (T, bool) {
     let positive = |value: T| value.greater(T::ZERO);
@@ -51,15 +50,10 @@ impl<T: Real> EventDriven<T> {
             self.agendas[place as usize].leaves_cell = self.period;
             return;
         }
-        let agenda = &mut self.agendas[place as usize];
-        let flight = self.records[place as usize].flight();
-        let (position, velocity) = if self.plan.has_field {
-            flight.at::<VelocityVerlet>(now, self.gravity)
-        } else {
-            flight.at::<Coasting>(now, self.gravity)
-        };
+        let (position, velocity) = self.state_of(place as usize, now);
         let (position, velocity) = (position.to_array(), velocity.to_array());
         let gravity = self.gravity.to_array();
+        let agenda = &mut self.agendas[place as usize];
         let mut first = (T::from_f64(1e30), Exit { axis: 0, up: false });
         for axis in 0..3 {
             let bounds = self.cells.bounds(agenda.cell, axis);
@@ -88,7 +82,7 @@ impl<T: Real> EventDriven<T> {
         }
         self.plan_crossing(place, now);
         if self.plan.features > 0 {
-            self.search_features_of_cell(place, now);
+            self.search_features_of_cell(place);
         }
         if self.plan.has_pairs {
             let len = self.cells.ahead(cell, axis, up, &mut self.found);

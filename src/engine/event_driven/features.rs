@@ -11,24 +11,23 @@ use crate::vec3::Vec3;
 
 impl<T: Real> EventDriven<T> {
     /// Looks for contacts of the body at a place with all features near it.
-    pub(super) fn search_features(&mut self, place: u32, now: T) {
+    pub(super) fn search_features(&mut self, place: u32) {
         for k in 0..self.near.everywhere().len() {
-            self.expect_feature(place, self.near.everywhere()[k], now);
+            self.expect_feature(place, self.near.everywhere()[k]);
         }
-        self.search_features_of_cell(place, now);
+        self.search_features_of_cell(place);
     }
 
     /// Looks for contacts of the body at a place with the features near its
     /// cell.
-    pub(super) fn search_features_of_cell(&mut self, place: u32, now: T) {
+    pub(super) fn search_features_of_cell(&mut self, place: u32) {
         let cell = self.cells.number_of(self.agendas[place as usize].cell);
         for k in 0..self.near.of(cell).len() {
-            self.expect_feature(place, self.near.of(cell)[k], now);
+            self.expect_feature(place, self.near.of(cell)[k]);
         }
     }
 
-    fn expect_feature(&mut self, place: u32, Image { feature, image }: Image, now: T) {
-        let _ = now;
+    fn expect_feature(&mut self, place: u32, Image { feature, image }: Image) {
         let at = place as usize;
         let flight = self.records[at].flight();
         let partner = PartnerCode::feature(feature);

@@ -116,7 +116,7 @@ impl<T: Real> EventDriven<T> {
         let fallen = self.gravity.length().to_f64() * spacing;
         let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
         let flight = (FLIGHT * spacing / speed).clamp(1e-25, LONGEST);
-        self.period = T::from_f64(flight.log2().floor().exp2());
+        self.period = T::from_f64(power_of_two_below(flight));
         let limit = 2.0 * FAST * speed;
         self.too_fast = T::from_f64((limit * limit).max(1e-30));
     }
@@ -170,4 +170,10 @@ impl<T: Real> EventDriven<T> {
             self.make_room();
         }
     }
+}
+
+/// The greatest power of two that is not above a positive number. By its bits: a
+/// platform's logarithm may round across one.
+fn power_of_two_below(value: f64) -> f64 {
+    f64::from_bits(value.to_bits() & f64::INFINITY.to_bits())
 }

@@ -22,7 +22,7 @@ impl<T: Real> EventDriven<T> {
         agenda.clear(self.period);
         let cell = agenda.cell;
         if self.plan.features > 0 {
-            self.search_features(place, now);
+            self.search_features(place);
         }
         if self.plan.has_pairs {
             let len = self.cells.around(cell, &mut self.found);
