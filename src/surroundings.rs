@@ -92,6 +92,16 @@ impl<T: Real> Shape<T> {
     }
 }
 
+/// The features of all shapes, and for each of them which shape it is of.
+pub(crate) fn features_of<T: Real>(shapes: &[Shape<T>]) -> (Vec<Feature<T>>, Vec<u32>) {
+    let (mut features, mut parts) = (Vec::new(), Vec::new());
+    for (part, shape) in shapes.iter().enumerate() {
+        features.extend(shape.features());
+        parts.resize(features.len(), part as u32);
+    }
+    (features, parts)
+}
+
 /// What a sphere can touch in one point at a time.
 #[derive(Clone, Copy, Debug)]
 pub enum Feature<T> {

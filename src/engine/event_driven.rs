@@ -34,7 +34,7 @@ use crate::mat3::Mat3;
 use crate::observe::CompensatedSum;
 use crate::real::Real;
 use crate::scene::Scene;
-use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space};
+use crate::surroundings::{Feature, OpenSpace, PeriodicBox, Space, features_of};
 use crate::vec3::Vec3;
 use agenda::{Agenda, Mark};
 use calendar::Calendar;
@@ -158,14 +158,8 @@ impl<T: Real> EventDriven<T> {
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let plan = Plan::new(&scene, EngineKind::EventDriven, execution, 1);
         let bodies = scene.bodies;
-        let mut features = Vec::new();
-        let mut parts = Vec::new();
-        if plan.features > 0 {
-            for (part, shape) in scene.surroundings.iter().enumerate() {
-                features.extend(shape.features());
-                parts.resize(features.len(), part as u32);
-            }
-        }
+        let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
+        let (features, parts) = features_of(met);
         let images = scene.periodic.map_or_else(|| OpenSpace.images(), Space::images);
         let len = bodies.len();
         let radius = bodies.radius.greatest();

@@ -25,7 +25,7 @@ use crate::motion::turning::turn;
 use crate::observe::Energy;
 use crate::real::Real;
 use crate::scene::{MOST_STEPS, Scene};
-use crate::surroundings::{Feature, OpenSpace, PeriodicBox};
+use crate::surroundings::{Feature, OpenSpace, PeriodicBox, features_of};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 use contacts::{Contact, Rounds};
@@ -132,14 +132,8 @@ impl<T: Real> Stepped<T> {
         let workers = Workers::new(execution.threads)?;
         let plan = Plan::new(&scene, EngineKind::Stepped, execution, workers.threads());
         let len = scene.bodies.len();
-        let mut features = Vec::new();
-        let mut parts = Vec::new();
-        if plan.features > 0 {
-            for (part, shape) in scene.surroundings.iter().enumerate() {
-                features.extend(shape.features());
-                parts.resize(features.len(), part as u32);
-            }
-        }
+        let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
+        let (features, parts) = features_of(met);
         let mut state = State::new(scene.bodies);
         if matches!(plan.turning, Turning::FromLastContact | Turning::EachStep) {
             state.own_orientations();
