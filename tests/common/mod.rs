@@ -2,4 +2,5 @@
 #![allow(dead_code)] // No test uses all of it.
 
 pub mod double_double;
+pub mod known;
 pub mod numbers;

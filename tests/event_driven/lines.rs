@@ -6,6 +6,7 @@ use carom::surroundings::Plane;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::common::known::{CRADLES, Cradle};
 use crate::{builder, t3, world};
 
 /// Collisions in all of a ball at rest between a wall and a ball `ratio` times
@@ -53,9 +54,6 @@ fn galperin_with_other_masses() {
     }
 }
 
-/// Masses, velocities, what becomes of them, in how many collisions.
-type Cradle = (&'static [f64], &'static [f64], &'static [f64], u64);
-
 /// Cradles, touching or not, pairwise in order.
 #[test]
 fn cradles() {
@@ -74,19 +72,8 @@ fn cradles() {
             assert!(error <= 4.0 * T::EPSILON.to_f64(), "{masses:?} {gap}: {error:e}");
         }
     }
-    let cases: [Cradle; 4] = [
-        (&[1.0; 3], &[1.0, 0.0, 0.0], &[0.0, 0.0, 1.0], 2),
-        (&[1.0; 5], &[1.0, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 1.0], 6),
-        (&[1.0, 2.0, 3.0], &[1.0, 0.0, 0.0], &[-1.0 / 3.0, -2.0 / 15.0, 8.0 / 15.0], 2),
-        (
-            &[1.0, 0.5, 0.25, 0.125],
-            &[1.0, 0.0, 0.0, 0.0],
-            &[1.0 / 3.0, 4.0 / 9.0, 16.0 / 27.0, 64.0 / 27.0],
-            3,
-        ),
-    ];
     for gap in [0.0, 0.1, 0.5] {
-        for case in cases {
+        for case in CRADLES {
             cradle::<f32>(case, gap);
             cradle::<f64>(case, gap);
         }

@@ -11,6 +11,7 @@ use carom::vec3::Vec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::common::known::{CRADLES, SUPERBALL};
 use crate::{FAST, world};
 
 const BOTH: [Impact; 2] = [Impact::EndOfStep, Impact::SubStep];
@@ -19,26 +20,12 @@ fn floor<T: Real>() -> Plane<T> {
     Plane::new([T::ZERO; 3], [T::ZERO, T::ZERO, T::ONE])
 }
 
-/// Masses, velocities, what becomes of them, in how many collisions.
-type Cradle = (&'static [f64], &'static [f64], &'static [f64], u64);
-
 /// Cradles, touching or not, pairwise in order.
 #[test]
 fn cradles() {
-    let cases: [Cradle; 4] = [
-        (&[1.0; 3], &[1.0, 0.0, 0.0], &[0.0, 0.0, 1.0], 2),
-        (&[1.0; 5], &[1.0, 1.0, 0.0, 0.0, 0.0], &[0.0, 0.0, 0.0, 1.0, 1.0], 6),
-        (&[1.0, 2.0, 3.0], &[1.0, 0.0, 0.0], &[-1.0 / 3.0, -2.0 / 15.0, 8.0 / 15.0], 2),
-        (
-            &[1.0, 0.5, 0.25, 0.125],
-            &[1.0, 0.0, 0.0, 0.0],
-            &[1.0 / 3.0, 4.0 / 9.0, 16.0 / 27.0, 64.0 / 27.0],
-            3,
-        ),
-    ];
     for impact in BOTH {
         for gap in [0.0, 0.1] {
-            for (masses, before, after, collisions) in cases {
+            for (masses, before, after, collisions) in CRADLES {
                 let mut builder = Scene::<f64>::builder().impact(impact).dt(1.0 / 64.0);
                 for (k, (mass, velocity)) in masses.iter().zip(before).enumerate() {
                     let sphere = Sphere::new([k as f64 * (1.0 + gap), 0.0, 0.0]).radius(0.5);
@@ -150,16 +137,8 @@ fn superball() {
             .sphere(Sphere::new([0.0, 0.0, 1.0]).radius(radius).velocity([1.0, 0.0, -1.0]))
             .dt(1.0 / 128.0);
         let mut world = world(scene.build().unwrap(), FAST);
-        let exact: [(f64, f64); 6] = [
-            (3.0 / 7.0, -10.0 / 7.0),
-            (-31.0 / 49.0, 60.0 / 49.0),
-            (-333.0 / 343.0, 130.0 / 343.0),
-            (-479.0 / 2401.0, -3720.0 / 2401.0),
-            (13443.0 / 16807.0, 15950.0 / 16807.0),
-            (104129.0 / 117649.0, 86580.0 / 117649.0),
-        ];
         let mut worst = 0.0_f64;
-        for (bounce, (velocity, surface)) in exact.into_iter().enumerate() {
+        for (bounce, (velocity, surface)) in SUPERBALL.into_iter().enumerate() {
             while world.collisions().surroundings <= bounce as u64 {
                 world.advance_steps(1);
             }

@@ -6,6 +6,9 @@ mod laws;
 mod reference;
 mod same_bits;
 
+#[path = "../common/mod.rs"]
+mod common;
+
 use carom::engine::{Execution, Lanes, Stepped};
 use carom::real::Real;
 use carom::scene::Scene;

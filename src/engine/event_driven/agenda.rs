@@ -26,7 +26,7 @@ impl PartnerCode {
         Self(number | FIXED)
     }
 
-    /// The feature's number, or the body's.
+    /// `Ok` the body's number, `Err` the feature's.
     #[inline(always)]
     pub fn decoded(self) -> Result<u32, u32> {
         if self.0 & FIXED == 0 { Ok(self.0) } else { Err(self.0 & !FIXED) }
@@ -44,9 +44,8 @@ pub(super) struct Expected<T> {
     pub changes: u32,
 }
 
-/// How many contacts a body keeps. With one, every third contact found is
-/// looked for again after its partner has met somebody else; with two, one in
-/// ten or less.
+/// How many contacts a body keeps. With one, .06 searches a collision are made
+/// again since the partner has met somebody else before; with two, .01.
 const KEPT: usize = 2;
 
 /// What is ahead of a body, on cache lines of its own.
@@ -60,7 +59,7 @@ pub(super) struct Agenda<T: Real> {
     complete_until: T,
     kept: [Expected<T>; KEPT],
     len: u16,
-    /// Through which face it does.
+    /// Through which face it leaves its cell.
     pub exit: Exit,
     /// Its cell's coordinates in the unbounded grid.
     pub cell: [i32; 3],
@@ -70,7 +69,7 @@ pub(super) struct Agenda<T: Real> {
 /// What others ask about a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mark {
-    /// How often its motion has changed in this period.
+    /// How often its motion has changed.
     pub changes: u32,
     /// What it met last, a body by its index in the scene.
     pub last: PartnerCode,
@@ -166,11 +165,16 @@ impl<T: Real> Agenda<T> {
         self.len -= 1;
     }
 
+    /// When the first contact is, or a search for one.
+    #[inline(always)]
+    fn contact_time(&self) -> T {
+        if self.len > 0 { self.kept[0].time } else { self.complete_until }
+    }
+
     /// When the body has to be looked at next.
     #[inline(always)]
     pub fn next_time(&self) -> T {
-        let contact = if self.len > 0 { self.kept[0].time } else { self.complete_until };
-        if self.leaves_cell < contact { self.leaves_cell } else { contact }
+        self.leaves_cell.lesser(self.contact_time())
     }
 
     /// What the body does at [`next_time`](Agenda::next_time). It leaves a cell
@@ -178,8 +182,7 @@ impl<T: Real> Agenda<T> {
     /// known by then.
     #[inline(always)]
     pub fn next(&self) -> Next<T> {
-        let contact = if self.len > 0 { self.kept[0].time } else { self.complete_until };
-        if self.leaves_cell <= contact {
+        if self.leaves_cell <= self.contact_time() {
             Next::LeavesCell
         } else if self.len > 0 {
             Next::Meets(self.kept[0])

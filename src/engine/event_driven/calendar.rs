@@ -80,7 +80,8 @@ impl<T: Real> Calendar<T> {
         self.now.clear();
     }
 
-    /// Enters a turn, if it is in this period. `order` is that of places whose turns have equal times.
+    /// Enters a turn, if it is in this period. `order` is that of places whose
+    /// turns have equal times.
     #[inline(always)]
     pub fn enter(&mut self, turn: Turn<T>, order: impl Fn(u32, u32) -> Ordering) {
         if !turn.time.lt(self.end) {

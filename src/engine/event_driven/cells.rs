@@ -74,8 +74,7 @@ impl<T: Real> Cells<T> {
     /// up to `reach`, and how far apart the bodies are on the average.
     pub fn fitting(region: Region<T>, reach: T, len: usize) -> (Self, T) {
         let extent = (region.upper - region.lower).to_array();
-        let least = if reach > T::ZERO { reach } else { T::ZERO };
-        let extent = extent.map(|side| side.greater(least));
+        let extent = extent.map(|side| side.greater(reach));
         let volume: f64 = extent.iter().map(|side| side.to_f64()).product();
         let mean = (volume / len.max(1) as f64).cbrt();
         let spacing = T::from_f64(if mean > 0.0 { mean } else { 1.0 }).greater(reach);

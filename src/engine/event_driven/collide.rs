@@ -5,9 +5,7 @@ use super::agenda::{Mark, PartnerCode};
 use super::flight::{Flight, Record};
 use crate::bodies::PerBody;
 use crate::contact::{Impulse, Party, collide_spread};
-use crate::engine::plan::Turning;
 use crate::engine::{Event, Listener, Partner};
-use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::surroundings::Space;
 use crate::vec3::Vec3;
@@ -25,8 +23,8 @@ impl<T: Real> EventDriven<T> {
         let swapped = self.index[one as usize] > self.index[other as usize];
         let (one, other) = if swapped { (other, one) } else { (one, other) };
         let (a, b) = (one as usize, other as usize);
-        self.arrive(a, time);
-        self.arrive(b, time);
+        self.end_flight(a, time, time);
+        self.end_flight(b, time, time);
         let (flight_a, flight_b) = (self.records[a].flight(), self.records[b].flight());
         let offset = flight_a.position - flight_b.position;
         let offset = self.periodic.map_or(offset, |space| space.nearest(offset));
@@ -68,7 +66,7 @@ impl<T: Real> EventDriven<T> {
         on_event: &mut Listener<'_, T>,
     ) {
         let at = place as usize;
-        self.arrive(at, time);
+        self.end_flight(at, time, time);
         let arm = self.arm(at, feature);
         let mut party = self.party(at, T::ONE);
         let impulse = self.impulse(arm, &mut party, &mut Party::immovable());
@@ -94,27 +92,6 @@ impl<T: Real> EventDriven<T> {
             .map(|shift| feature.clearance(flight.position - *shift, flight.radius));
         let touched = clearances.reduce(|a, b| if b.gap.abs() < a.gap.abs() { b } else { a });
         touched.map_or(Vec3::ZERO, |clearance| clearance.arm)
-    }
-
-    /// Ends the flight of the body at a place.
-    #[inline(always)]
-    fn arrive(&mut self, place: usize, time: T) {
-        let (position, velocity) = self.state_of(place, time);
-        let Flight { velocity: start, since, radius, .. } = self.records[place].flight();
-        self.tallies.flight(start.length() * (time - since));
-        let mut flight = Flight { position, velocity, since: time, radius };
-        if let Some(space) = self.periodic {
-            flight.position = space.wrap(position);
-            let turns = space.turns(position - flight.position);
-            let cell = &mut self.agendas[place].cell;
-            *cell = self.cells.turned_back(*cell, turns);
-        }
-        self.records[place] = Record::new(flight);
-        if self.plan.turning == Turning::FromLastContact {
-            let (orientation, since) = &mut self.turned[place];
-            *orientation = turned(*orientation, self.spins[place], time - *since);
-            *since = time;
-        }
     }
 
     /// The body at a place as a party of a contact.

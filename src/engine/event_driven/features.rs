@@ -3,7 +3,6 @@
 use super::EventDriven;
 use super::agenda::{Expected, PartnerCode};
 use super::near::Image;
-use super::search::rank;
 use crate::contact::greatest_component;
 use crate::real::Real;
 use crate::surroundings::{Feature, Space};
@@ -46,10 +45,7 @@ impl<T: Real> EventDriven<T> {
         let wait =
             feature.contact_time(center, flight.velocity, acceleration, flight.radius, is_leaving);
         if let Some(wait) = wait {
-            let found = Expected { time: flight.since + wait, partner, changes: 0 };
-            let index = &self.index;
-            let comes_first = |a, b| rank(index, place, a) < rank(index, place, b);
-            self.agendas[at].keep(found, comes_first);
+            self.keep(place, Expected { time: flight.since + wait, partner, changes: 0 });
         }
     }
 

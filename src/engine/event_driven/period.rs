@@ -54,12 +54,15 @@ impl<T: Real> EventDriven<T> {
             (self.bodies.spin, self.bodies.orientation) = (nothing(), None);
         }
         self.marks = vec![Mark { changes: 0, last: PartnerCode::NONE }; len];
+        self.agendas = vec![Agenda::new([0; 3]); len];
         self.begin_period(T::ZERO);
     }
 
     /// Ends the present period at a time of it, and begins the next one.
     pub(super) fn begin_period(&mut self, end: T) {
-        self.restart_flights(end);
+        for place in 0..self.records.len() {
+            self.end_flight(place, end, T::ZERO);
+        }
         self.origin.add(end.to_f64());
         self.is_too_fast = false;
         self.last_time = T::ZERO;
@@ -81,19 +84,24 @@ impl<T: Real> EventDriven<T> {
         }
     }
 
-    /// Brings every body to the period's end and starts its flight anew.
-    fn restart_flights(&mut self, end: T) {
-        for place in 0..self.records.len() {
-            let (position, velocity) = self.state_of(place, end);
-            let position = self.periodic.map_or(position, |space| space.wrap(position));
-            let Flight { velocity: start, since, radius, .. } = self.records[place].flight();
-            self.tallies.flight(start.length() * (end - since));
-            let flight = Flight { position, velocity, since: T::ZERO, radius };
-            self.records[place] = Record::new(flight);
-            if let Some((orientation, since)) = self.turned.get_mut(place) {
-                *orientation = turned(*orientation, self.spins[place], end - *since);
-                *since = T::ZERO;
-            }
+    /// Ends the flight of the body at a place at a time. The next one starts at
+    /// `since`, which is that time or, in the next period, its start.
+    #[inline(always)]
+    pub(super) fn end_flight(&mut self, place: usize, time: T, since: T) {
+        let (position, velocity) = self.state_of(place, time);
+        let before = self.records[place].flight();
+        self.tallies.flight(before.velocity.length() * (time - before.since));
+        let mut flight = Flight { position, velocity, since, radius: before.radius };
+        if let Some(space) = self.periodic {
+            flight.position = space.wrap(position);
+            let turns = space.turns(position - flight.position);
+            let cell = &mut self.agendas[place].cell;
+            *cell = self.cells.turned_back(*cell, turns);
+        }
+        self.records[place] = Record::new(flight);
+        if let Some((orientation, turned_at)) = self.turned.get_mut(place) {
+            *orientation = turned(*orientation, self.spins[place], time - *turned_at);
+            *turned_at = since;
         }
     }
 

@@ -155,6 +155,12 @@ impl<T: Real> EventDriven<T> {
     fn expect(&mut self, place: u32, other: u32, time: T) {
         let changes = self.marks[other as usize].changes;
         let found = Expected { time, partner: PartnerCode::body(other), changes };
+        self.keep(place, found);
+    }
+
+    /// Keeps a contact of the body at a place if it is among its first.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, place: u32, found: Expected<T>) {
         let index = &self.index;
         let comes_first = |a, b| rank(index, place, a) < rank(index, place, b);
         self.agendas[place as usize].keep(found, comes_first);

@@ -1,5 +1,7 @@
 //! Turns: body after body, whoever is next.
 
+use core::cmp::Ordering;
+
 use super::EventDriven;
 use super::agenda::{Agenda, Next};
 use super::calendar::Turn;
@@ -31,10 +33,8 @@ impl<T: Real> EventDriven<T> {
     #[inline(always)]
     pub(super) fn next_turn(&mut self) -> Option<Turn<T>> {
         let (agendas, index) = (&self.agendas, &self.index);
-        self.calendar.next(
-            |place| agendas[place as usize].next_time(),
-            |a, b| order(agendas, index, a).cmp(&order(agendas, index, b)),
-        )
+        self.calendar
+            .next(|place| agendas[place as usize].next_time(), |a, b| order(agendas, index, a, b))
     }
 
     /// Enters the next turn of the body at a place.
@@ -42,9 +42,7 @@ impl<T: Real> EventDriven<T> {
     pub(super) fn enter(&mut self, place: u32) {
         let time = self.agendas[place as usize].next_time();
         let (agendas, index) = (&self.agendas, &self.index);
-        self.calendar.enter(Turn { time, place }, |a, b| {
-            order(agendas, index, a).cmp(&order(agendas, index, b))
-        });
+        self.calendar.enter(Turn { time, place }, |a, b| order(agendas, index, a, b));
     }
 
     #[inline(always)]
@@ -75,9 +73,10 @@ impl<T: Real> EventDriven<T> {
 
 /// The order of turns at equal times: what is no collision first, so that all
 /// collisions of that time are known before one happens.
-fn order<T: Real>(agendas: &[Agenda<T>], index: &[u32], place: u32) -> Option<(u32, bool, u32)> {
-    match agendas[place as usize].next() {
+fn order<T: Real>(agendas: &[Agenda<T>], index: &[u32], a: u32, b: u32) -> Ordering {
+    let of = |place: u32| match agendas[place as usize].next() {
         Next::Meets(expected) => Some(rank(index, place, expected.partner)),
         _ => None,
-    }
+    };
+    of(a).cmp(&of(b))
 }
