@@ -10,7 +10,6 @@ mod progress;
 mod run;
 mod scene_argument;
 mod scenes;
-mod world;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

@@ -5,6 +5,7 @@ mod event_driven;
 mod plan;
 mod stepped;
 mod tallies;
+mod world;
 
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,7 @@ pub use event::{Event, Listener, Partner};
 pub use event_driven::{Effort, EventDriven};
 pub use plan::{Plan, Turning};
 pub use stepped::Stepped;
+pub use world::World;
 
 /// How an engine goes through time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

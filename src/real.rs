@@ -1,13 +1,19 @@
 //! Real: the precisions that every formula of this crate is written over.
 
+#[cfg(feature = "study")]
+mod double_double;
+
 use core::fmt::{Display, LowerExp};
 
 use num_traits::Num;
 
 use crate::lane::{Lane, Twin};
 
+#[cfg(feature = "study")]
+pub use double_double::DoubleDouble;
+
 /// A precision: `f32`, `f64`, or any other number with `+ − × ÷ √`, an order
-/// and constants (a double-double is one).
+/// and constants (the double-double of the studies is one).
 ///
 /// A `Real` is a lane of one, so a formula over [`Lane`] takes it as it is:
 /// that is the scalar reference path.

@@ -3,10 +3,10 @@
 
 mod common;
 
+use carom::DoubleDouble;
 use carom::real::Real;
 use carom::surroundings::{Cuboid, Feature, FixedSphere, Plane};
 use carom::vec3::Vec3;
-use common::double_double::DoubleDouble;
 use common::numbers::Random;
 
 /// A sphere in free flight, in numbers that every precision has.

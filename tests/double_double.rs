@@ -3,6 +3,7 @@
 
 mod common;
 
+use carom::DoubleDouble;
 use carom::column::Column;
 use carom::lane::Lane;
 use carom::mat3::Mat3;
@@ -14,7 +15,6 @@ use carom::real::Real;
 use carom::surroundings::OpenSpace;
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
-use common::double_double::DoubleDouble;
 use common::numbers::Random;
 
 type Number = DoubleDouble;

@@ -3,12 +3,12 @@
 
 mod common;
 
+use carom::DoubleDouble;
 use carom::lane::Lane;
 use carom::mat3::Mat3;
 use carom::motion::rotation::{orthonormalised, reference_rotation, turned};
 use carom::real::Real;
 use carom::vec3::Vec3;
-use common::double_double::DoubleDouble;
 use common::numbers::Random;
 
 /// A precision with a better one to judge it by.

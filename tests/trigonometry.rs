@@ -2,9 +2,9 @@
 
 mod common;
 
+use carom::DoubleDouble;
 use carom::real::Real;
 use carom::trigonometry::sin_cos;
-use common::double_double::DoubleDouble;
 use common::numbers::Random;
 
 /// Error of `found` in units of the last place of `expected`, for a number of
@@ -97,11 +97,11 @@ fn f64_is_right_to_the_last_place() {
             let (sine, cosine) = sin_cos(x);
             let expected = sin_cos(DoubleDouble::new(x, 0.0));
             for (found, expected) in [(sine, expected.0), (cosine, expected.1)] {
-                let difference = (expected - DoubleDouble::new(found, 0.0)).0.0;
+                let difference = (expected - DoubleDouble::new(found, 0.0)).high();
                 if is_far {
                     worst_far = f64::max(worst_far, difference.abs());
                 } else {
-                    worst = f64::max(worst, ulps(found, expected.0.0, difference, 53, -1022));
+                    worst = f64::max(worst, ulps(found, expected.high(), difference, 53, -1022));
                 }
             }
         }

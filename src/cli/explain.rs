@@ -1,5 +1,6 @@
 //! `carom explain`: the plan of a scene.
 
+use carom::engine::World;
 use carom::real::Real;
 use carom::scene::{Precision, SceneFile};
 
@@ -7,7 +8,6 @@ use super::arguments::SceneArguments;
 use super::failure::Failure;
 use super::print;
 use super::scene_argument::scene_file;
-use super::world::World;
 
 /// Prints what the engine does for a scene.
 pub fn explain(arguments: &SceneArguments) -> Result<(), Failure> {

@@ -6,14 +6,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use carom::contact::Surface;
-use carom::engine::{EngineError, Event};
+use carom::engine::{EngineError, Event, World};
 use carom::observe::Temperature;
 use carom::output::{EventWriter, OutputError, OutputFile};
 use carom::real::Real;
 
 use super::failure::Failure;
 use super::progress::Progress;
-use super::world::World;
 
 /// How long the engine runs between two looks at the clock.
 const STRETCH: Duration = Duration::from_millis(50);

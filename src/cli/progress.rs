@@ -3,11 +3,9 @@
 use core::time::Duration;
 use std::io::{self, IsTerminal};
 
-use carom::engine::EngineKind;
+use carom::engine::{EngineKind, World};
 use carom::real::Real;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
-
-use super::world::World;
 
 /// How finely the bar tells how far the run is.
 const GRAINS: f64 = 1e6;

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use carom::bodies::Bodies;
+use carom::engine::World;
 use carom::observe::{Temperature, Totals, state_hash};
 use carom::output::{OutputFile, Setup, Summary, Work, write_state};
 use carom::real::Real;
@@ -14,7 +15,6 @@ use super::journey::Journey;
 use super::outputs::Outputs;
 use super::print;
 use super::scene_argument::scene_file;
-use super::world::World;
 
 /// Runs a scene and prints its summary.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
@@ -63,7 +63,7 @@ fn run_in<T: Real>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Fai
     let work = Work {
         mean_temperature: journey.mean_temperature(),
         wall_seconds: journey.wall_seconds(),
-        ..world.work()
+        ..Work::of(&world)
     };
     let summary = Summary::new(setup, &before, &after, temperature, hash, &work);
     show(&summary, arguments.json, outputs.take_standard_output)

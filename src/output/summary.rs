@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::contact::Surface;
-use crate::engine::{Collisions, EngineKind, Impact};
+use crate::engine::{Collisions, EngineKind, Impact, World};
 use crate::motion::Integrator;
 use crate::observe::{
     AngularMomentum, Energy, Momentum, StateHash, Temperature, Totals, collision_rate,
@@ -191,6 +191,23 @@ pub struct Summary {
     pub collisions_per_second: f64,
     /// Bodies × steps per second on the wall; 0 without steps.
     pub body_steps_per_second: f64,
+}
+
+impl Work {
+    /// What an engine has done so far, but for what only the run knows.
+    #[must_use]
+    pub fn of<T: Real>(world: &World<T>) -> Self {
+        Self {
+            time: world.time(),
+            steps: world.steps(),
+            collisions: world.collisions(),
+            impulse_from_surroundings: world.impulse_from_surroundings(),
+            virial: world.virial(),
+            mean_free_path: world.mean_free_path(),
+            mean_temperature: None,
+            wall_seconds: 0.0,
+        }
+    }
 }
 
 impl Summary {

@@ -1,6 +1,5 @@
 //! What several tests share.
 #![allow(dead_code)] // No test uses all of it.
 
-pub mod double_double;
 pub mod known;
 pub mod numbers;
