@@ -1,0 +1,48 @@
+//! What goes wrong in a study.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::engine::EngineError;
+use crate::output::OutputError;
+use crate::scene::SceneError;
+
+/// Why a study ends early.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A mistake in the scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// An engine can't run the scene.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// A mistake in what the study was asked for.
+    #[error("{0}")]
+    Asked(String),
+    /// A file of the study's folder.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// Which one.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The folder has results already, and not of this study.
+    #[error(
+        "{} has the results of another study, scene or version of carom; give this one a folder \
+         of its own with --output, or remove that file",
+        .0.display()
+    )]
+    AnotherStudy(PathBuf),
+    /// A result could not be written to its end.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A picture could not be drawn.
+    #[error("{} could not be drawn: {reason}", path.display())]
+    Picture {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
