@@ -319,7 +319,8 @@ mod tests {
 
     #[test]
     fn draws_both_kinds_of_files() -> Result<(), Box<dyn std::error::Error>> {
-        let law = |power: i32| (1..20).map(|n| (2.0_f64.powi(-n), 1e-3 * 2.0_f64.powi(-n * power)));
+        let law =
+            |power: i32| (1..20).map(move |n| (2.0_f64.powi(-n), 1e-3 * 2.0_f64.powi(-n * power)));
         let series = |name: &str, power, color, mark| Series {
             name: name.to_owned(),
             color,
