@@ -10,6 +10,7 @@ mod progress;
 mod run;
 mod scene_argument;
 mod scenes;
+mod study;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -27,6 +28,7 @@ pub fn main() -> ExitCode {
             Some(Command::Run(arguments)) => run::run(&arguments),
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
             Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+            Some(Command::Study { study }) => study.run(),
         },
         Err(answer) => return answered(&answer),
     };

@@ -4,11 +4,19 @@
 //! [journal](Journal) as soon as they are there.
 
 pub mod chart;
+pub mod deviation;
 mod error;
 pub mod fit;
+mod folder;
+pub mod invariants;
 mod journal;
+mod machine;
 mod point;
+mod subject;
 
 pub use error::StudyError;
+pub use folder::Folder;
 pub use journal::Journal;
+pub use machine::Machine;
 pub use point::{Order, Point, Watch};
+pub use subject::Subject;

@@ -7,6 +7,8 @@ use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
+use super::study::Study;
+
 /// The most worker threads that can be asked for.
 pub const MOST_THREADS: u64 = 1024;
 
@@ -24,6 +26,7 @@ Examples:
   carom scenes rough-gas > gas.toml     start a scene file of your own
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
+  carom study error gas.toml            what each method costs, and its error
 
 Without a command, `carom` does what `carom run` does."
 )]
@@ -64,6 +67,20 @@ Examples:
     Scenes {
         /// The built-in scene to print.
         name: Option<String>,
+    },
+    /// Measure what methods cost and how far off they are.
+    #[command(after_help = "\
+Examples:
+  carom study error superball            run time against error, method by method
+  carom study precision hard-sphere-fluid --duration 2  f32, f64, double-double
+  carom study stability --quick          the stress suite in a minute
+  carom study scaling rough-gas          time and memory against size and threads
+
+Each writes tables and pictures into a folder. An interrupted study goes on
+where it was when it is started again.")]
+    Study {
+        #[command(subcommand)]
+        study: Study,
     },
 }
 
@@ -135,12 +152,12 @@ impl SceneArguments {
     }
 }
 
-const PRECISIONS: [(&str, Precision); 2] = [("f32", Precision::F32), ("f64", Precision::F64)];
+pub const PRECISIONS: [(&str, Precision); 2] = [("f32", Precision::F32), ("f64", Precision::F64)];
 
-const ENGINES: [(&str, EngineKind); 2] =
+pub const ENGINES: [(&str, EngineKind); 2] =
     [("stepped", EngineKind::Stepped), ("event-driven", EngineKind::EventDriven)];
 
-const LANES: [(&str, Lanes); 5] = [
+pub const LANES: [(&str, Lanes); 5] = [
     ("scalar", Lanes::Scalar),
     ("4", Lanes::Four),
     ("8", Lanes::Eight),
@@ -149,7 +166,7 @@ const LANES: [(&str, Lanes); 5] = [
 ];
 
 /// Takes one of a few words.
-fn one_of<V: Copy + Send + Sync + 'static>(
+pub fn one_of<V: Copy + Send + Sync + 'static>(
     words: &'static [(&'static str, V)],
 ) -> impl TypedValueParser<Value = V> {
     let names = PossibleValuesParser::new(words.iter().map(|(name, _)| *name));
@@ -160,7 +177,7 @@ fn one_of<V: Copy + Send + Sync + 'static>(
 }
 
 /// Takes a length of time.
-fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("it must be a finite number greater than 0".to_owned()),
@@ -168,6 +185,6 @@ fn positive(text: &str) -> Result<f64, String> {
 }
 
 /// Takes a number of threads.
-fn threads() -> clap::builder::RangedU64ValueParser<u64> {
+pub fn threads() -> clap::builder::RangedU64ValueParser<u64> {
     clap::value_parser!(u64).range(1..=MOST_THREADS)
 }

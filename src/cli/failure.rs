@@ -5,6 +5,7 @@ use std::io;
 use carom::engine::{EngineError, EngineKind};
 use carom::output::OutputError;
 use carom::scene::SceneError;
+use carom::study::StudyError;
 use thiserror::Error;
 
 /// Why the program ends early. Its text is the one message.
@@ -30,6 +31,9 @@ pub enum Failure {
     /// A file could not be written to its end.
     #[error(transparent)]
     Write(#[from] OutputError),
+    /// A study could not be made.
+    #[error(transparent)]
+    Study(#[from] StudyError),
     /// Standard output took no more.
     #[error("standard output could not be written: {0}")]
     Print(io::Error),
@@ -52,6 +56,13 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Self::Scene(_) | Self::Argument(_) | Self::Open { .. } => 2,
+            Self::Study(error) => match error {
+                StudyError::Scene(_)
+                | StudyError::Asked(_)
+                | StudyError::AnotherStudy(_)
+                | StudyError::Output(OutputError::Path { .. }) => 2,
+                _ => 1,
+            },
             Self::Engine(_) | Self::Write(_) | Self::Print(_) | Self::NotFinite { .. } => 1,
         }
     }

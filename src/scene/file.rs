@@ -137,6 +137,12 @@ impl SceneFile {
         Self::parse(scene.name, scene.text).ok()
     }
 
+    /// The text that it was read from.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// How long a run takes, for those who need to know.
     ///
     /// # Errors

@@ -1,7 +1,6 @@
 //! Charts: measured points and laws, drawn as SVG and as PNG.
 
 use core::ops::Range;
-use std::io::Write;
 use std::path::Path;
 use std::sync::Once;
 
@@ -11,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 
 use super::StudyError;
-use crate::output::OutputFile;
+use super::folder::{Folder, write};
 
 /// How far a scale goes, and how it is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -102,12 +101,13 @@ impl Picture {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn write(&self, folder: &Path, name: &str) -> Result<(), StudyError> {
+    pub fn write(&self, folder: &Folder, name: &str) -> Result<(), StudyError> {
         static FONTS: Once = Once::new();
         FONTS.call_once(|| {
             // A font that cannot be read leaves the picture without text.
             let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
         });
+        let folder = folder.path();
         let size = (SIZE.0 * self.charts.len().max(1) as u32, SIZE.1);
         let failed =
             |path: &Path, reason: String| StudyError::Picture { path: path.into(), reason };
@@ -137,13 +137,6 @@ impl Picture {
         }
         area.present().map_err(|error| error.to_string())
     }
-}
-
-/// Writes a whole file.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    let mut file = OutputFile::open(path)?;
-    file.write_all(bytes).map_err(|error| file.error(error))?;
-    Ok(file.finish()?)
 }
 
 impl Axis {
@@ -243,6 +236,31 @@ impl Chart {
         self.drawn(area).map_err(|error| error.to_string())
     }
 
+    /// Where the legend hides the fewest points.
+    fn emptiest_corner(&self) -> SeriesLabelPosition {
+        let places = |pick: fn(&(f64, f64)) -> f64, axis: &Axis| -> Vec<Option<f64>> {
+            let points = self.series.iter().flat_map(|series| &series.points);
+            let values: Vec<f64> = points.map(pick).collect();
+            let range = axis.range(values.iter().copied());
+            let part = |place: f64| (place - range.start) / (range.end - range.start);
+            values.iter().map(|&value| axis.place(value).map(part)).collect()
+        };
+        let (x, y) = (places(|point| point.0, &self.x), places(|point| point.1, &self.y));
+        let inside = |right: bool, upper: bool| {
+            let is_near = |place: f64, far: bool| if far { place > 0.6 } else { place < 0.4 };
+            let places = x.iter().zip(&y).filter_map(|(x, y)| x.zip(*y));
+            places.filter(|(x, y)| is_near(*x, right) && is_near(*y, upper)).count()
+        };
+        let corners = [
+            (SeriesLabelPosition::UpperRight, inside(true, true)),
+            (SeriesLabelPosition::UpperLeft, inside(false, true)),
+            (SeriesLabelPosition::LowerRight, inside(true, false)),
+            (SeriesLabelPosition::LowerLeft, inside(false, false)),
+        ];
+        let emptiest = corners.into_iter().min_by_key(|(_, points)| *points);
+        emptiest.map_or(SeriesLabelPosition::UpperRight, |(corner, _)| corner)
+    }
+
     fn drawn<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
@@ -301,9 +319,12 @@ impl Chart {
                 chart.draw_series(discs)?;
             }
         }
+        if self.series.iter().all(|series| series.name.is_empty()) {
+            return Ok(());
+        }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(self.emptiest_corner())
             .legend_area_size(28)
             .label_font((FONT, 13))
             .background_style(WHITE.mix(0.85))
@@ -339,8 +360,9 @@ mod tests {
             ],
         };
         let empty = Chart { title: "empty".to_owned(), ..Chart::default() };
-        let folder = tempfile::tempdir()?;
-        Picture { charts: vec![chart, empty] }.write(folder.path(), "orders")?;
+        let temporary = tempfile::tempdir()?;
+        let folder = Folder::open(temporary.path())?;
+        Picture { charts: vec![chart, empty] }.write(&folder, "orders")?;
         let svg = std::fs::read_to_string(folder.path().join("orders.svg"))?;
         for text in ["errors, ε²", "Δt, s", "second order", "1e-3"] {
             assert!(svg.contains(text), "{text} is missing");

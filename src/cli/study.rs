@@ -1,0 +1,84 @@
+//! `carom study`: the studies, from their arguments to their folders.
+
+mod watch;
+
+use std::path::{Path, PathBuf};
+
+use carom::scene::SceneFile;
+use carom::study::{Folder, Journal};
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
+use super::arguments::{SceneArguments, positive};
+use super::failure::Failure;
+use super::scene_argument::scene_file;
+
+/// The studies.
+#[derive(Debug, Subcommand)]
+pub enum Study {}
+
+impl Study {
+    /// Makes the study.
+    pub fn run(self) -> Result<(), Failure> {
+        match self {}
+    }
+}
+
+/// Which scene is studied.
+#[derive(Args, Debug)]
+pub struct StudiedScene {
+    /// A scene file, or the name of a built-in scene
+    pub scene: PathBuf,
+
+    /// How long to simulate, in the scene's unit of time; the scene says it
+    /// otherwise
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub duration: Option<f64>,
+
+    /// Seed of the scene's random numbers
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub seed: Option<u64>,
+}
+
+impl StudiedScene {
+    /// Reads the scene.
+    pub fn file(&self) -> Result<SceneFile, Failure> {
+        scene_file(&SceneArguments {
+            scene: Some(self.scene.clone()),
+            duration: self.duration,
+            seed: self.seed,
+            ..SceneArguments::default()
+        })
+    }
+}
+
+/// Where the results go.
+#[derive(Args, Debug)]
+pub struct StudyFolder {
+    /// The folder for tables, pictures and finished points [default: study-…
+    /// with the names of the study and the scene]
+    #[arg(long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+
+    /// Forget what is in the folder, and begin anew
+    #[arg(long)]
+    restart: bool,
+}
+
+impl StudyFolder {
+    /// The folder and the points that it has. `study` is all that the results
+    /// depend on.
+    pub fn open(
+        &self,
+        default: &str,
+        study: &impl Serialize,
+    ) -> Result<(Folder, Journal), Failure> {
+        let path = self.output.as_deref().unwrap_or(Path::new(default));
+        let folder = Folder::open(path)?;
+        if self.restart {
+            folder.forget()?;
+        }
+        let journal = folder.journal(study)?;
+        Ok((folder, journal))
+    }
+}

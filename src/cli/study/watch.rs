@@ -1,0 +1,83 @@
+//! Watch: how far a study is, on the terminal.
+
+use core::time::Duration;
+use std::io::{self, IsTerminal};
+use std::sync::Mutex;
+
+use carom::study::{Folder, Watch};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+
+/// From so many seconds on it is said beforehand how long a study takes.
+const LONG: f64 = 10.0;
+
+/// What a shell reports for a program ended by Ctrl-C.
+const INTERRUPTED: i32 = 130;
+
+/// Tells on standard error how far a study is.
+pub struct Teller {
+    bar: Mutex<Option<ProgressBar>>,
+}
+
+impl Teller {
+    /// For a study whose points go into this folder.
+    pub fn new(folder: &Folder) -> Self {
+        let path = folder.path().display().to_string();
+        // Without a handler the points are kept too; only nobody is told.
+        let _ = ctrlc::set_handler(move || {
+            eprintln!("\ninterrupted; the finished points are in {path}: start again to go on");
+            std::process::exit(INTERRUPTED);
+        });
+        Self { bar: Mutex::new(None) }
+    }
+}
+
+impl Watch for Teller {
+    fn begins(&self, ahead: usize, all: usize, seconds: f64) {
+        if ahead == 0 {
+            return;
+        }
+        if seconds >= LONG {
+            let done = match all - ahead {
+                0 => String::new(),
+                done => format!("{done} of {all} points are there already; "),
+            };
+            let plural = if ahead == 1 { "" } else { "s" };
+            eprintln!("{done}{ahead} point{plural} ahead, {}", about(seconds));
+        }
+        if !io::stderr().is_terminal() {
+            return;
+        }
+        let bar = ProgressBar::new(all as u64).with_position((all - ahead) as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:20} {pos}/{len}  {wide_msg}") {
+            bar.set_style(style);
+        }
+        bar.set_message(about(seconds));
+        bar.enable_steady_tick(Duration::from_millis(200));
+        if let Ok(mut place) = self.bar.lock() {
+            *place = Some(bar);
+        }
+    }
+
+    fn is_done(&self, key: &str, seconds_left: f64) {
+        let Ok(place) = self.bar.lock() else { return };
+        let Some(bar) = &*place else { return };
+        bar.inc(1);
+        bar.set_message(format!("{} left; done: {key}", about(seconds_left)));
+    }
+}
+
+impl Drop for Teller {
+    fn drop(&mut self) {
+        if let Ok(Some(bar)) = self.bar.get_mut() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// A length of time on the wall, roughly.
+fn about(seconds: f64) -> String {
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(duration) => format!("about {}", HumanDuration(duration)),
+        Err(_) => "no end in sight".to_owned(),
+    }
+}

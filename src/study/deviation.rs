@@ -1,0 +1,128 @@
+//! Deviation: how far a state is from what it should be.
+
+use serde::{Deserialize, Serialize};
+
+use super::fit::mean_square;
+use super::invariants::{Invariants, exact, exact_vector};
+use crate::bodies::Bodies;
+use crate::engine::World;
+use crate::lane::Lane;
+use crate::mat3::Mat3;
+use crate::real::{DoubleDouble, Real};
+use crate::surroundings::{PeriodicBox, Space};
+use crate::vec3::Vec3;
+
+/// What a state should be: that of a world in double-double.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// When, in the scene's unit of time.
+    pub time: f64,
+    /// All bodies.
+    pub bodies: Bodies<DoubleDouble>,
+    /// What they amount to.
+    pub invariants: Invariants,
+    gravity: Vec3<DoubleDouble>,
+    periodic: Option<PeriodicBox<DoubleDouble>>,
+}
+
+/// How far a state is from what it should be. Of bodies, the root of the mean
+/// square over all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deviation {
+    /// Of the centres, length.
+    pub position: f64,
+    /// Of the centre that is farthest off, length.
+    pub position_worst: f64,
+    /// Of the velocities, length per time.
+    pub velocity: f64,
+    /// Of the orientations, rad.
+    pub orientation: f64,
+    /// Of the energy, see [`Invariants::change_since`]; its sign is kept.
+    pub energy: f64,
+    /// Of the momentum, as above, of the sum of all momenta.
+    pub momentum: f64,
+    /// Of the angular momentum, as above, of the sum of all angular momenta.
+    pub angular_momentum: f64,
+}
+
+impl Truth {
+    /// The present state of a world, in this field and this box.
+    #[must_use]
+    pub fn of(
+        world: &World<DoubleDouble>,
+        gravity: Vec3<DoubleDouble>,
+        periodic: Option<PeriodicBox<DoubleDouble>>,
+    ) -> Self {
+        let bodies = world.bodies();
+        let invariants = Invariants::of(&bodies, gravity);
+        Self { time: world.time(), bodies, invariants, gravity, periodic }
+    }
+
+    /// How far the bodies of a world that should be here are from it.
+    #[must_use]
+    pub fn deviation<T: Real>(&self, bodies: &Bodies<T>) -> Deviation {
+        let of_each = |distance: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            (0..bodies.len().min(self.bodies.len())).map(distance).collect()
+        };
+        let root_mean_square = |values: &[f64]| mean_square(values.iter().copied()).sqrt();
+        let positions = of_each(&|index| {
+            let (is, should) = (bodies.position_of(index), self.bodies.position_of(index));
+            let difference = exact_vector(is) - should;
+            let nearest = self.periodic.map_or(difference, |space| space.nearest(difference));
+            nearest.length().high()
+        });
+        let velocities = of_each(&|index| {
+            let should = self.bodies.velocity_of(index);
+            (exact_vector(bodies.velocity_of(index)) - should).length().high()
+        });
+        let orientations = of_each(&|index| {
+            angle_between(bodies.orientation_of(index), self.bodies.orientation_of(index))
+        });
+        let invariants = Invariants::of(bodies, self.gravity);
+        let [energy, momentum, angular_momentum] = invariants.change_since(&self.invariants);
+        Deviation {
+            position: root_mean_square(&positions),
+            position_worst: positions.iter().copied().fold(0.0, f64::max),
+            velocity: root_mean_square(&velocities),
+            orientation: root_mean_square(&orientations),
+            energy,
+            momentum,
+            angular_momentum,
+        }
+    }
+}
+
+/// The angle of the rotation between two orientations, rad: of the distance of
+/// their matrices, `‖A − B‖ = 2√2 sin(angle/2)`, which is good for small angles
+/// too. What a matrix lacks of a rotation counts as an angle.
+fn angle_between<T: Real>(is: Mat3<T>, should: Mat3<DoubleDouble>) -> f64 {
+    let elements = is.rows().into_iter().zip(should.rows());
+    let squares = elements.map(|(is, should)| {
+        let difference = exact(is) - should;
+        difference * difference
+    });
+    let distance = squares.fold(DoubleDouble::ZERO, |sum, square| sum + square).high().sqrt();
+    2.0 * (distance / 8.0_f64.sqrt()).min(1.0).asin()
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::motion::rotation::turned;
+
+    #[test]
+    fn angles_of_any_size() {
+        let axis = Vec3::new(0.0, 0.6, -0.8);
+        for angle in [1e-30, 1e-17, 1e-9, 0.5, 3.0] {
+            let spin = exact_vector(axis);
+            let should = turned(Mat3::IDENTITY, spin, DoubleDouble::from_f64(angle));
+            assert_relative_eq!(
+                angle_between(Mat3::<f64>::IDENTITY, should),
+                angle,
+                max_relative = 1e-12
+            );
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Invariants: energy, momentum and angular momentum of a state, to more digits
+//! than the state has.
+
+use crate::bodies::Bodies;
+use crate::lane::Lane;
+use crate::real::{DoubleDouble, Real};
+use crate::vec3::Vec3;
+
+/// A number of any precision, without rounding.
+#[must_use]
+pub fn exact<T: Real>(value: T) -> DoubleDouble {
+    let high = value.to_f64();
+    DoubleDouble::new(high, (value - T::from_f64(high)).to_f64())
+}
+
+/// A vector of any precision, without rounding.
+#[must_use]
+pub fn exact_vector<T: Real>(vector: Vec3<T>) -> Vec3<DoubleDouble> {
+    Vec3::from(vector.to_array().map(exact))
+}
+
+/// What free motion and elastic collisions conserve, and how great the terms are
+/// that it is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Invariants {
+    /// `Σ ½ m v² + ½ I w² − m g·c`, mass × length² per time².
+    pub energy: DoubleDouble,
+    /// `Σ m v`, mass × length per time.
+    pub momentum: Vec3<DoubleDouble>,
+    /// `Σ c × m v + I w` about the origin, mass × length² per time.
+    pub angular_momentum: Vec3<DoubleDouble>,
+    /// `Σ ½ m v² + ½ I w²`.
+    pub kinetic_energy: f64,
+    /// `Σ m |v|`.
+    pub momentum_scale: f64,
+    /// `Σ |c × m v| + I |w|`.
+    pub angular_momentum_scale: f64,
+}
+
+impl Invariants {
+    /// Of bodies in a uniform field of acceleration `gravity`.
+    #[must_use]
+    pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<DoubleDouble>) -> Self {
+        let half = DoubleDouble::ratio(1, 2);
+        let mut totals = Self {
+            energy: DoubleDouble::ZERO,
+            momentum: Vec3::ZERO,
+            angular_momentum: Vec3::ZERO,
+            kinetic_energy: 0.0,
+            momentum_scale: 0.0,
+            angular_momentum_scale: 0.0,
+        };
+        for index in 0..bodies.len() {
+            let (mass, inertia) = (exact(bodies.mass.of(index)), exact(bodies.inertia.of(index)));
+            let position = exact_vector(bodies.position_of(index));
+            let momentum = exact_vector(bodies.velocity_of(index)) * mass;
+            let spin = exact_vector(bodies.spin_of(index));
+            let velocity = exact_vector(bodies.velocity_of(index));
+            let kinetic = (momentum.dot(velocity) + inertia * spin.dot(spin)) * half;
+            let orbital = position.cross(momentum);
+            totals.energy = totals.energy + kinetic - mass * gravity.dot(position);
+            totals.momentum += momentum;
+            totals.angular_momentum = totals.angular_momentum + orbital + spin * inertia;
+            totals.kinetic_energy += kinetic.high();
+            totals.momentum_scale += momentum.length().high();
+            totals.angular_momentum_scale +=
+                orbital.length().high() + (inertia * spin.length()).high();
+        }
+        totals
+    }
+
+    /// How far these are from others: of the energy, of the momentum, of the
+    /// angular momentum.
+    ///
+    /// The energy is measured by the greatest of the others' energy and both
+    /// kinetic energies, the momenta by the sums of their terms' lengths.
+    #[must_use]
+    pub fn change_since(&self, start: &Self) -> [f64; 3] {
+        let energy = (self.energy - start.energy).high();
+        let energy_scale =
+            start.energy.high().abs().max(start.kinetic_energy).max(self.kinetic_energy);
+        let momentum = (self.momentum - start.momentum).length().high();
+        let momentum_scale = start.momentum_scale.max(self.momentum_scale);
+        let angular = (self.angular_momentum - start.angular_momentum).length().high();
+        let angular_scale = start.angular_momentum_scale.max(self.angular_momentum_scale);
+        [
+            ratio(energy, energy_scale),
+            ratio(momentum, momentum_scale),
+            ratio(angular, angular_scale),
+        ]
+    }
+}
+
+/// Of nothing there is no part.
+fn ratio(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}
