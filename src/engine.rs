@@ -7,6 +7,8 @@ mod stepped;
 mod tallies;
 mod world;
 
+use core::fmt;
+
 use serde::{Deserialize, Serialize};
 
 pub use event::{Event, Listener, Partner};
@@ -50,7 +52,8 @@ pub enum OrientationUpdate {
 }
 
 /// How many reals a kernel works on at once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Lanes {
     /// The fastest widths for each kernel.
     #[default]
@@ -58,15 +61,30 @@ pub enum Lanes {
     /// One: the scalar reference path.
     Scalar,
     /// Four.
+    #[serde(rename = "4")]
     Four,
     /// Eight.
+    #[serde(rename = "8")]
     Eight,
     /// Sixteen.
+    #[serde(rename = "16")]
     Sixteen,
 }
 
+impl fmt::Display for Lanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Auto => "auto",
+            Self::Scalar => "scalar",
+            Self::Four => "4",
+            Self::Eight => "8",
+            Self::Sixteen => "16",
+        })
+    }
+}
+
 /// On what a scene is run; it changes no bit of the result.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Execution {
     /// How many reals a kernel works on at once.
     pub lanes: Lanes,

@@ -41,6 +41,8 @@ mod random;
 mod raw;
 mod spheres;
 
+use core::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::bodies::Bodies;
@@ -73,6 +75,15 @@ pub enum Precision {
     /// Double precision, 53 binary digits.
     #[default]
     F64,
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::F32 => f32::NAME,
+            Self::F64 => f64::NAME,
+        })
+    }
 }
 
 /// Who can meet whom.

@@ -4,6 +4,7 @@
 //! [journal](Journal) as soon as they are there.
 
 pub mod chart;
+pub mod clock;
 pub mod deviation;
 mod error;
 pub mod fit;
@@ -13,6 +14,7 @@ mod journal;
 mod machine;
 mod point;
 mod subject;
+pub mod work_precision;
 
 pub use error::StudyError;
 pub use folder::Folder;

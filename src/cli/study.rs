@@ -1,5 +1,6 @@
 //! `carom study`: the studies, from their arguments to their folders.
 
+mod error;
 mod watch;
 
 use std::path::{Path, PathBuf};
@@ -12,15 +13,34 @@ use serde::Serialize;
 use super::arguments::{SceneArguments, positive};
 use super::failure::Failure;
 use super::scene_argument::scene_file;
+use error::ErrorStudy;
 
 /// The studies.
 #[derive(Debug, Subcommand)]
-pub enum Study {}
+pub enum Study {
+    /// Run time against error: what each method costs in a scene, and how far
+    /// off it is.
+    ///
+    /// Engines, integrators, impacts, steps, precisions, lanes and threads are
+    /// compared from the same start with a run in double-double at exact times.
+    /// The report tells the orders of convergence and the fastest method for each
+    /// size of the error; the folder has tables and a work-precision diagram.
+    #[command(after_help = "\
+Examples:
+  carom study error superball                     all methods
+  carom study error gas.toml --times 0.5,1,2      at these times
+  carom study error gas.toml --precision f64 --dt 1e-2,1e-3,1e-4
+  carom study error rough-gas --lanes scalar,4,8,16,auto --threads 1,2
+  carom study error bouncing-ball --of energy     judged by the energy")]
+    Error(ErrorStudy),
+}
 
 impl Study {
     /// Makes the study.
     pub fn run(self) -> Result<(), Failure> {
-        match self {}
+        match self {
+            Self::Error(study) => study.run(),
+        }
     }
 }
 

@@ -12,13 +12,13 @@ use crate::real::{DoubleDouble, Real};
 use crate::surroundings::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
-/// What a state should be: that of a world in double-double.
+/// What a state should be: that of a world of a finer precision.
 #[derive(Clone, Debug)]
-pub struct Truth {
+pub struct Truth<T: Real = DoubleDouble> {
     /// When, in the scene's unit of time.
     pub time: f64,
     /// All bodies.
-    pub bodies: Bodies<DoubleDouble>,
+    pub bodies: Bodies<T>,
     /// What they amount to.
     pub invariants: Invariants,
     gravity: Vec3<DoubleDouble>,
@@ -45,14 +45,14 @@ pub struct Deviation {
     pub angular_momentum: f64,
 }
 
-impl Truth {
+impl<T: Real> Truth<T> {
     /// The present state of a world, in this field and this box.
     #[must_use]
-    pub fn of(
-        world: &World<DoubleDouble>,
-        gravity: Vec3<DoubleDouble>,
-        periodic: Option<PeriodicBox<DoubleDouble>>,
-    ) -> Self {
+    pub fn of(world: &World<T>, gravity: Vec3<T>, periodic: Option<PeriodicBox<T>>) -> Self {
+        let gravity = exact_vector(gravity);
+        let bounds = |corner: Vec3<T>| exact_vector(corner).to_array();
+        let periodic =
+            periodic.map(|space| PeriodicBox::new(bounds(space.lower), bounds(space.upper)));
         let bodies = world.bodies();
         let invariants = Invariants::of(&bodies, gravity);
         Self { time: world.time(), bodies, invariants, gravity, periodic }
@@ -60,19 +60,19 @@ impl Truth {
 
     /// How far the bodies of a world that should be here are from it.
     #[must_use]
-    pub fn deviation<T: Real>(&self, bodies: &Bodies<T>) -> Deviation {
+    pub fn deviation<U: Real>(&self, bodies: &Bodies<U>) -> Deviation {
         let of_each = |distance: &dyn Fn(usize) -> f64| -> Vec<f64> {
             (0..bodies.len().min(self.bodies.len())).map(distance).collect()
         };
         let root_mean_square = |values: &[f64]| mean_square(values.iter().copied()).sqrt();
         let positions = of_each(&|index| {
-            let (is, should) = (bodies.position_of(index), self.bodies.position_of(index));
-            let difference = exact_vector(is) - should;
+            let should = exact_vector(self.bodies.position_of(index));
+            let difference = exact_vector(bodies.position_of(index)) - should;
             let nearest = self.periodic.map_or(difference, |space| space.nearest(difference));
             nearest.length().high()
         });
         let velocities = of_each(&|index| {
-            let should = self.bodies.velocity_of(index);
+            let should = exact_vector(self.bodies.velocity_of(index));
             (exact_vector(bodies.velocity_of(index)) - should).length().high()
         });
         let orientations = of_each(&|index| {
@@ -92,13 +92,25 @@ impl Truth {
     }
 }
 
+impl Deviation {
+    /// Whether all of it can be told.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let Self { position, position_worst, velocity, orientation, .. } = *self;
+        let Self { energy, momentum, angular_momentum, .. } = *self;
+        [position, position_worst, velocity, orientation, energy, momentum, angular_momentum]
+            .into_iter()
+            .all(f64::is_finite)
+    }
+}
+
 /// The angle of the rotation between two orientations, rad: of the distance of
 /// their matrices, `‖A − B‖ = 2√2 sin(angle/2)`, which is good for small angles
 /// too. What a matrix lacks of a rotation counts as an angle.
-fn angle_between<T: Real>(is: Mat3<T>, should: Mat3<DoubleDouble>) -> f64 {
+fn angle_between<T: Real, U: Real>(is: Mat3<U>, should: Mat3<T>) -> f64 {
     let elements = is.rows().into_iter().zip(should.rows());
     let squares = elements.map(|(is, should)| {
-        let difference = exact(is) - should;
+        let difference = exact(is) - exact(should);
         difference * difference
     });
     let distance = squares.fold(DoubleDouble::ZERO, |sum, square| sum + square).high().sqrt();

@@ -19,6 +19,12 @@ pub enum StudyError {
     /// A mistake in what the study was asked for.
     #[error("{0}")]
     Asked(String),
+    /// Lanes or threads have changed a result.
+    #[error(
+        "{0} gives other bits than the fastest lanes do: that is a defect of carom; please report \
+         it with this scene"
+    )]
+    DifferentBits(String),
     /// A file of the study's folder.
     #[error("{}: {source}", path.display())]
     File {

@@ -32,6 +32,14 @@ impl Teller {
 }
 
 impl Watch for Teller {
+    fn says(&self, what: &str) {
+        if let (true, Ok(mut place)) = (io::stderr().is_terminal(), self.bar.lock()) {
+            let bar = place.get_or_insert_with(ProgressBar::new_spinner);
+            bar.set_message(what.to_owned());
+            bar.enable_steady_tick(Duration::from_millis(200));
+        }
+    }
+
     fn begins(&self, ahead: usize, all: usize, seconds: f64) {
         if ahead == 0 {
             return;
@@ -53,8 +61,10 @@ impl Watch for Teller {
         }
         bar.set_message(about(seconds));
         bar.enable_steady_tick(Duration::from_millis(200));
-        if let Ok(mut place) = self.bar.lock() {
-            *place = Some(bar);
+        if let Ok(mut place) = self.bar.lock()
+            && let Some(before) = place.replace(bar)
+        {
+            before.finish_and_clear();
         }
     }
 

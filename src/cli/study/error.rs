@@ -1,0 +1,111 @@
+//! `carom study error`: run time against error.
+
+use carom::engine::{EngineKind, Impact, Lanes};
+use carom::motion::Integrator;
+use carom::scene::Precision;
+use carom::study::Subject;
+use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
+use clap::Args;
+
+use super::watch::Teller;
+use super::{StudiedScene, StudyFolder};
+use crate::cli::arguments::{ENGINES, LANES, PRECISIONS, one_of, positive, threads};
+use crate::cli::failure::Failure;
+use crate::cli::print;
+
+/// What `carom study error` takes.
+#[derive(Args, Debug)]
+pub struct ErrorStudy {
+    #[command(flatten)]
+    scene: StudiedScene,
+
+    /// Times at which methods are compared, the last one judged [default: four
+    /// up to where the scene can be foretold]
+    #[arg(long, value_name = "TIME,…", value_delimiter = ',', value_parser = positive)]
+    times: Vec<f64>,
+
+    /// Engines [default: both]
+    #[arg(long, value_name = "ENGINE,…", value_delimiter = ',', value_parser = one_of(&ENGINES))]
+    engine: Vec<EngineKind>,
+
+    /// Integrators of the stepped engine [default: all, where there is gravity]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = one_of(&INTEGRATORS))]
+    integrator: Vec<Integrator>,
+
+    /// Impacts of the stepped engine [default: both]
+    #[arg(long, value_name = "IMPACT,…", value_delimiter = ',', value_parser = one_of(&IMPACTS))]
+    impact: Vec<Impact>,
+
+    /// Lengths of a step, in the scene's unit of time [default: seven around the
+    /// scene's own]
+    #[arg(long, value_name = "TIME,…", value_delimiter = ',', value_parser = positive)]
+    dt: Vec<f64>,
+
+    /// Precisions [default: both]
+    #[arg(long, value_name = "P,…", value_delimiter = ',', value_parser = one_of(&PRECISIONS))]
+    precision: Vec<Precision>,
+
+    /// Lane widths [default: auto and scalar]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = one_of(&LANES))]
+    lanes: Vec<Lanes>,
+
+    /// Numbers of worker threads [default: one and all]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = threads())]
+    threads: Vec<u64>,
+
+    /// Timed runs of each method [default: 5]
+    #[arg(long, value_name = "N")]
+    runs: Option<usize>,
+
+    /// The error that the diagram shows and the advice is about
+    #[arg(long, value_name = "QUANTITY", value_parser = one_of(&QUANTITIES),
+          default_value = "position")]
+    of: Quantity,
+
+    #[command(flatten)]
+    folder: StudyFolder,
+}
+
+const INTEGRATORS: [(&str, Integrator); 3] = [
+    ("semi-implicit-euler", Integrator::SemiImplicitEuler),
+    ("explicit-euler", Integrator::ExplicitEuler),
+    ("velocity-verlet", Integrator::VelocityVerlet),
+];
+
+const IMPACTS: [(&str, Impact); 2] =
+    [("end-of-step", Impact::EndOfStep), ("sub-step", Impact::SubStep)];
+
+const QUANTITIES: [(&str, Quantity); 6] = [
+    ("position", Quantity::Position),
+    ("velocity", Quantity::Velocity),
+    ("orientation", Quantity::Orientation),
+    ("energy", Quantity::Energy),
+    ("momentum", Quantity::Momentum),
+    ("angular-momentum", Quantity::AngularMomentum),
+];
+
+impl ErrorStudy {
+    /// Makes the study, and prints its report.
+    pub fn run(self) -> Result<(), Failure> {
+        let file = self.scene.file()?;
+        let asked = Asked {
+            duration: self.scene.duration,
+            times: self.times,
+            engines: self.engine,
+            integrators: self.integrator,
+            impacts: self.impact,
+            steps: self.dt,
+            precisions: self.precision,
+            lanes: self.lanes,
+            threads: self.threads.into_iter().map(|threads| threads as usize).collect(),
+            runs: self.runs,
+        };
+        let study = WorkPrecision::new(&file, &asked)?;
+        let name = format!("study-error-{}", file.name);
+        let (folder, journal) =
+            self.folder.open(&name, &("error", Subject::of(&file), study.sweep()))?;
+        let report = study.run(&journal, self.of, &Teller::new(&folder))?;
+        report.write(&folder)?;
+        print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))
+    }
+}

@@ -1,0 +1,148 @@
+//! Measure: the errors of a method, and its time.
+
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use super::method::{Method, Stepping};
+use super::reference::{Reference, collisions_of_a_body};
+use super::sweep::Sweep;
+use crate::engine::{EngineError, Execution, World};
+use crate::observe::{StateHash, state_hash};
+use crate::real::Real;
+use crate::scene::{Precision, Scene, SceneFile};
+use crate::study::StudyError;
+use crate::study::clock::{Timing, Variant, rounds, seconds};
+use crate::study::deviation::Deviation;
+
+/// What was measured of a method.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// The errors at each of the times.
+    pub moments: Vec<Moment>,
+    /// The time on the wall that it takes to the last of the times, on each
+    /// execution.
+    pub timings: Vec<Timing>,
+    /// Of the last state.
+    pub state_hash: String,
+}
+
+/// The error at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Moment {
+    /// When, in the scene's unit of time: the end of a step, for a method that
+    /// has some.
+    pub time: f64,
+    /// Collisions of a body up to then, on the average.
+    pub collisions: f64,
+    /// The same of the reference.
+    pub true_collisions: f64,
+    /// How far the state is from the reference; `None` where it is no longer
+    /// finite.
+    pub deviation: Option<Deviation>,
+}
+
+/// Measures a method.
+pub(super) fn measure(
+    file: &SceneFile,
+    method: &Method,
+    sweep: &Sweep,
+    reference: &Reference,
+) -> Result<Outcome, StudyError> {
+    match method.precision {
+        Precision::F32 => measure_in::<f32>(file, method, sweep, reference),
+        Precision::F64 => measure_in::<f64>(file, method, sweep, reference),
+    }
+}
+
+fn measure_in<T: Real>(
+    file: &SceneFile,
+    method: &Method,
+    sweep: &Sweep,
+    reference: &Reference,
+) -> Result<Outcome, StudyError> {
+    let end = sweep.times.last().copied().unwrap_or(0.0);
+    let scene = method.scene::<T>(file, end)?;
+    let mut world = World::new(scene.clone(), Execution::default())?;
+    let mut moments = Vec::new();
+    for &stated in &sweep.times {
+        advance(&mut world, method, stated)?;
+        let time = method.time_near(stated);
+        let Some(state) = reference.at(time) else { continue };
+        let deviation = state.truth.deviation(&world.bodies());
+        moments.push(Moment {
+            time,
+            collisions: collisions_of_a_body(&world),
+            true_collisions: state.collisions,
+            deviation: deviation.is_finite().then_some(deviation),
+        });
+    }
+    let hash = state_hash(&world.bodies());
+    let variant = |&execution: &Execution| -> Variant<'_> {
+        let scene = &scene;
+        Box::new(move || timed_run(scene, method, end, execution, hash))
+    };
+    let mut variants: Vec<_> = sweep.executions.iter().map(variant).collect();
+    let timings = rounds(&mut variants, sweep.runs)?;
+    Ok(Outcome { moments, timings, state_hash: hash.to_string() })
+}
+
+/// Advances a world to the time nearest to a stated one.
+fn advance<T: Real>(world: &mut World<T>, method: &Method, stated: f64) -> Result<(), EngineError> {
+    let mark = match method.stepping {
+        None => stated,
+        Some(Stepping { dt, .. }) => (stated / dt).round().max(1.0),
+    };
+    while !world.advance(mark, mark, u64::MAX, None)? {}
+    Ok(())
+}
+
+/// The seconds from a scene to its end, whose bits have to be these.
+fn timed_run<T: Real>(
+    scene: &Scene<T>,
+    method: &Method,
+    end: f64,
+    execution: Execution,
+    hash: StateHash,
+) -> Result<f64, StudyError> {
+    let scene = scene.clone();
+    let (world, seconds) = seconds(|| {
+        let mut world = World::new(scene, execution)?;
+        advance(&mut world, method, end)?;
+        Ok::<_, EngineError>(world)
+    });
+    let world = world?;
+    let Execution { lanes, threads } = execution;
+    if state_hash(&world.bodies()) != hash {
+        let what = format!("{method} in lanes {lanes} on {threads} threads");
+        return Err(StudyError::DifferentBits(what));
+    }
+    Ok(seconds)
+}
+
+/// About how many seconds a run of a method to the end takes: those of a few
+/// steps, times the number of steps.
+pub(super) fn probe(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
+    match method.precision {
+        Precision::F32 => probe_in::<f32>(file, method, end),
+        Precision::F64 => probe_in::<f64>(file, method, end),
+    }
+}
+
+fn probe_in<T: Real>(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
+    /// Seconds that are enough to tell.
+    const ENOUGH: f64 = 0.004;
+    let mut world = World::new(method.scene::<T>(file, end)?, Execution::default())?;
+    let length = world.length(end);
+    let start = Instant::now();
+    let mut stretch = 1;
+    loop {
+        let is_there = world.advance(length, length, stretch, None)?;
+        let seconds = start.elapsed().as_secs_f64();
+        if is_there || seconds > ENOUGH {
+            let part = if is_there { 1.0 } else { world.place() / length };
+            return Ok(seconds / part.max(f64::MIN_POSITIVE));
+        }
+        stretch *= 2;
+    }
+}

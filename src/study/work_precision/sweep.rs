@@ -1,0 +1,192 @@
+//! Sweep: which methods are compared, at which times, on what.
+
+use std::thread;
+
+use serde::{Deserialize, Serialize};
+
+use super::method::{Method, Stepping};
+use super::reference::{Horizon, length_scale};
+use crate::engine::EngineKind;
+use crate::engine::{Execution, Impact, Lanes, Plan};
+use crate::motion::Integrator;
+use crate::scene::{Precision, Scene, SceneFile};
+use crate::study::StudyError;
+
+/// What a person asks for; what is left out is chosen to suit the scene.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Asked {
+    /// Up to when, whatever can be foretold, in the scene's unit of time.
+    pub duration: Option<f64>,
+    /// Times of comparison, in the scene's unit of time; the last one is judged.
+    pub times: Vec<f64>,
+    /// Engines.
+    pub engines: Vec<EngineKind>,
+    /// Integrators of the stepped engine.
+    pub integrators: Vec<Integrator>,
+    /// Impacts of the stepped engine.
+    pub impacts: Vec<Impact>,
+    /// Lengths of a step, in the scene's unit of time.
+    pub steps: Vec<f64>,
+    /// Precisions.
+    pub precisions: Vec<Precision>,
+    /// Lane widths.
+    pub lanes: Vec<Lanes>,
+    /// Numbers of threads.
+    pub threads: Vec<usize>,
+    /// Timed runs of each method.
+    pub runs: Option<usize>,
+}
+
+/// What is compared.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sweep {
+    /// Times of comparison, ascending; the last one is judged.
+    pub times: Vec<f64>,
+    /// All methods, those with steps from the longest to the shortest.
+    pub methods: Vec<Method>,
+    /// On what each is run. The first is the one whose time stands for the
+    /// method's.
+    pub executions: Vec<Execution>,
+    /// Timed runs of each method on each.
+    pub runs: usize,
+    /// What was left out of it, and why.
+    pub notes: Vec<String>,
+}
+
+/// The most lengths of a step, times or runs.
+const MOST: usize = 1000;
+
+/// Longer and shorter steps than the scene's own: by up to `2³`.
+const LADDER: i32 = 3;
+
+/// The number of steps must be told apart from one more.
+const MOST_STEPS_LOG2: i32 = 40;
+
+impl Sweep {
+    /// What suits a scene that can be foretold so far.
+    pub(super) fn new(
+        file: &SceneFile,
+        asked: &Asked,
+        horizon: &Horizon,
+    ) -> Result<Self, StudyError> {
+        let scene =
+            Method { precision: Precision::F64, stepping: None }.scene::<f64>(file, horizon.end)?;
+        let mut notes = Vec::new();
+        let times = times(asked, horizon.end)?;
+        let end = times.last().copied().unwrap_or(horizon.end);
+        let plan = Plan::new(&scene, EngineKind::Stepped, Execution::default(), 1);
+        let meets = plan.has_pairs || plan.features > 0;
+
+        let integrators = match asked.integrators.as_slice() {
+            [] if plan.has_field => vec![
+                Integrator::SemiImplicitEuler,
+                Integrator::ExplicitEuler,
+                Integrator::VelocityVerlet,
+            ],
+            [] => {
+                notes.push(
+                    "Without gravity the integrators are one: free flight is a straight line."
+                        .to_owned(),
+                );
+                vec![scene.stepped.integrator]
+            }
+            asked => asked.to_vec(),
+        };
+        let impacts = match asked.impacts.as_slice() {
+            [] if meets => vec![Impact::EndOfStep, Impact::SubStep],
+            [] => vec![scene.stepped.impact],
+            asked => asked.to_vec(),
+        };
+        let precisions = or(&asked.precisions, &[Precision::F32, Precision::F64]);
+        let engines = or(&asked.engines, &[EngineKind::EventDriven, EngineKind::Stepped]);
+        let steps = match asked.steps.as_slice() {
+            [] => ladder(file, &scene, horizon, end),
+            asked => {
+                let mut steps = checked("steps", asked)?;
+                steps.reverse();
+                steps
+            }
+        };
+        let mut methods = Vec::new();
+        for &precision in &precisions {
+            if engines.contains(&EngineKind::EventDriven) {
+                methods.push(Method { precision, stepping: None });
+            }
+            if !engines.contains(&EngineKind::Stepped) {
+                continue;
+            }
+            for &integrator in &integrators {
+                for &impact in &impacts {
+                    methods.extend(steps.iter().map(|&dt| Method {
+                        precision,
+                        stepping: Some(Stepping { integrator, impact, dt }),
+                    }));
+                }
+            }
+        }
+        let runs = asked.runs.unwrap_or(5);
+        if runs == 0 || runs > MOST {
+            return Err(StudyError::Asked(format!("{runs} runs: from 1 to {MOST} can be made")));
+        }
+        Ok(Self { times, methods, executions: executions(asked), runs, notes })
+    }
+}
+
+/// What was asked for, or else the usual.
+fn or<V: Clone>(asked: &[V], usual: &[V]) -> Vec<V> {
+    if asked.is_empty() { usual.to_vec() } else { asked.to_vec() }
+}
+
+/// Positive, ascending, and not too many.
+fn checked(what: &str, asked: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let mut values = asked.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    if values.len() > MOST {
+        return Err(StudyError::Asked(format!("{} {what}: give at most {MOST}", values.len())));
+    }
+    match values.iter().find(|value| !(value.is_finite() && **value > 0.0)) {
+        Some(value) => Err(StudyError::Asked(format!(
+            "{what}: {value} is not possible; give finite numbers greater than 0"
+        ))),
+        None => Ok(values),
+    }
+}
+
+/// The times asked for, or an eighth, a quarter, a half and all of the way.
+fn times(asked: &Asked, end: f64) -> Result<Vec<f64>, StudyError> {
+    match asked.times.as_slice() {
+        [] => Ok([0.125, 0.25, 0.5, 1.0].map(|part| part * end).to_vec()),
+        asked => checked("times", asked),
+    }
+}
+
+/// Lengths of a step around the scene's own, each half of the one before. All
+/// divide an eighth of the way into whole numbers of steps, powers of two.
+fn ladder(file: &SceneFile, scene: &Scene<f64>, horizon: &Horizon, end: f64) -> Vec<f64> {
+    let dt = file.dt.unwrap_or_else(|| {
+        // Without one, in which the fastest third of a gas flies .04 diameters.
+        let way = 0.04 * length_scale(scene);
+        let falls = scene.gravity.length() * end;
+        way / horizon.speed.max(falls / 2.0).max(f64::MIN_POSITIVE)
+    });
+    let halvings = (end / dt).log2().round().clamp(0.0, f64::from(MOST_STEPS_LOG2)) as i32;
+    let first = (halvings - LADDER).max(3);
+    (first..=first + 2 * LADDER).map(|halvings| end * 0.5_f64.powi(halvings)).collect()
+}
+
+/// The fastest lanes on one thread and on all, and one lane on one thread.
+fn executions(asked: &Asked) -> Vec<Execution> {
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let of = |lanes, threads| Execution { lanes, threads };
+    if asked.lanes.is_empty() && asked.threads.is_empty() {
+        let mut usual = vec![of(Lanes::Auto, 1), of(Lanes::Scalar, 1)];
+        if cores > 1 {
+            usual.push(of(Lanes::Auto, cores));
+        }
+        return usual;
+    }
+    let lanes = or(&asked.lanes, &[Lanes::Auto]);
+    let threads = or(&asked.threads, &[1]);
+    lanes.iter().flat_map(|&lanes| threads.iter().map(move |&threads| of(lanes, threads))).collect()
+}
