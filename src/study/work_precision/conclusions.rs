@@ -47,7 +47,8 @@ pub enum Theory {
 pub enum Found {
     /// It grows as this power of the step.
     Power(Estimate),
-    /// It does not come of the step: so much at most.
+    /// It does not come of the step, or grows with the number of steps: so much
+    /// at most.
     Rounding(f64),
     /// Too few steps have an error that tells.
     Nothing,
@@ -76,7 +77,7 @@ impl Theory {
     }
 }
 
-/// An error this many times that of the exact times in the same precision does
+/// An error this many times as great as that of the exact times in the same precision does
 /// not come of rounding.
 const ABOVE_ROUNDING: f64 = 30.0;
 
@@ -109,7 +110,11 @@ pub(super) fn orders(results: &[Judged], motion: Motion, size: f64) -> Vec<Order
         let worst = points.iter().map(|(_, error)| *error).fold(0.0, f64::max);
         let found = match (above.len(), points.len()) {
             (0, 1..) => Found::Rounding(worst),
-            (3.., _) => power(&above).map_or(Found::Nothing, Found::Power),
+            (3.., _) => match power(&above) {
+                Some(power) if power.value < 0.25 => Found::Rounding(worst),
+                Some(power) => Found::Power(power),
+                None => Found::Nothing,
+            },
             _ => Found::Nothing,
         };
         Order { family, theory: Theory::of(&family, motion), found }

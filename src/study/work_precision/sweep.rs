@@ -56,11 +56,15 @@ pub struct Sweep {
 /// The most lengths of a step, times or runs.
 const MOST: usize = 1000;
 
-/// Longer and shorter steps than the scene's own: by up to `2³`.
+/// So many longer and so many shorter steps than the scene's own.
 const LADDER: i32 = 3;
 
+/// Each so many times as long as the next. Halved steps would share their ends:
+/// an impact that falls right behind one would do so again and again.
+const RATIO: f64 = 1.9;
+
 /// The number of steps must be told apart from one more.
-const MOST_STEPS_LOG2: i32 = 40;
+const MOST_STEPS: f64 = 1e12;
 
 impl Sweep {
     /// What suits a scene that can be foretold so far.
@@ -161,18 +165,20 @@ fn times(asked: &Asked, end: f64) -> Result<Vec<f64>, StudyError> {
     }
 }
 
-/// Lengths of a step around the scene's own, each half of the one before. All
-/// divide an eighth of the way into whole numbers of steps, powers of two.
+/// Lengths of a step around the scene's own, from the longest to the shortest.
+/// All divide an eighth of the way into whole numbers of steps.
 fn ladder(file: &SceneFile, scene: &Scene<f64>, horizon: &Horizon, end: f64) -> Vec<f64> {
     let dt = file.dt.unwrap_or_else(|| {
-        // Without one, in which the fastest third of a gas flies .04 diameters.
+        // Without one, in which a body flies .02 diameters.
         let way = 0.04 * length_scale(scene);
         let falls = scene.gravity.length() * end;
         way / horizon.speed.max(falls / 2.0).max(f64::MIN_POSITIVE)
     });
-    let halvings = (end / dt).log2().round().clamp(0.0, f64::from(MOST_STEPS_LOG2)) as i32;
-    let first = (halvings - LADDER).max(3);
-    (first..=first + 2 * LADDER).map(|halvings| end * 0.5_f64.powi(halvings)).collect()
+    let eighths = (end / dt / 8.0).clamp(RATIO.powi(LADDER), MOST_STEPS);
+    let mut steps: Vec<f64> =
+        (-LADDER..=LADDER).map(|rung| end / (8.0 * (eighths * RATIO.powi(rung)).round())).collect();
+    steps.dedup();
+    steps
 }
 
 /// The fastest lanes on one thread and on all, and one lane on one thread.
