@@ -41,6 +41,8 @@ pub enum Mark {
     /// Joined, and each with a disc.
     #[default]
     LineAndDiscs,
+    /// Joined by a line of dashes, and each with a disc.
+    DashesAndDiscs,
     /// Each by itself, as a ring: for points that stand out.
     Rings,
 }
@@ -81,6 +83,15 @@ pub struct Picture {
 /// Of a chart, pixels.
 const SIZE: (u32, u32) = (640, 480);
 
+/// Around a chart, pixels.
+const MARGIN: i32 = 14;
+
+/// For the numbers and the label of the vertical axis, pixels.
+const LABELS: i32 = 76;
+
+/// More series than these have their legend beside the chart.
+const FEW: usize = 4;
+
 /// In which all text is set. It comes with the program: a PNG looks the same
 /// everywhere.
 const FONT: &str = "DejaVu Sans, sans-serif";
@@ -108,7 +119,8 @@ impl Picture {
             let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
         });
         let folder = folder.path();
-        let size = (SIZE.0 * self.charts.len().max(1) as u32, SIZE.1);
+        let width = self.charts.iter().map(Chart::width).sum::<u32>().max(1);
+        let size = (width, SIZE.1);
         let failed =
             |path: &Path, reason: String| StudyError::Picture { path: path.into(), reason };
 
@@ -132,8 +144,11 @@ impl Picture {
         area: &DrawingArea<B, plotters::coord::Shift>,
     ) -> Result<(), String> {
         area.fill(&WHITE).map_err(|error| error.to_string())?;
-        for (chart, area) in self.charts.iter().zip(area.split_evenly((1, self.charts.len()))) {
-            chart.draw(&area)?;
+        let mut rest = area.clone();
+        for chart in &self.charts {
+            let (own, right) = rest.split_horizontally(chart.width());
+            chart.draw(&own)?;
+            rest = right;
         }
         area.present().map_err(|error| error.to_string())
     }
@@ -236,6 +251,21 @@ impl Chart {
         self.drawn(area).map_err(|error| error.to_string())
     }
 
+    fn has_legend_beside(&self) -> bool {
+        self.series.len() > FEW
+    }
+
+    /// How wide the legend is, roughly, pixels.
+    fn legend_width(&self) -> u32 {
+        let longest = self.series.iter().map(|series| series.name.chars().count()).max();
+        longest.unwrap_or(0) as u32 * 8 + 60
+    }
+
+    /// How wide it is with its legend, pixels.
+    fn width(&self) -> u32 {
+        SIZE.0 + if self.has_legend_beside() { self.legend_width() } else { 0 }
+    }
+
     /// Where the legend hides the fewest points.
     fn emptiest_corner(&self) -> SeriesLabelPosition {
         let places = |pick: fn(&(f64, f64)) -> f64, axis: &Axis| -> Vec<Option<f64>> {
@@ -271,11 +301,15 @@ impl Chart {
             span,
             scale: axis.scale,
         };
+        let is_beside = self.has_legend_beside();
+        let legend = self.legend_width();
+        let (width, _) = area.dim_in_pixel();
         let mut chart = ChartBuilder::on(area)
             .caption(&self.title, (FONT, 18))
-            .margin(14)
+            .margin(MARGIN)
+            .margin_right(MARGIN + if is_beside { legend as i32 } else { 0 })
             .x_label_area_size(46)
-            .y_label_area_size(76)
+            .y_label_area_size(LABELS)
             .build_cartesian_2d(
                 divided(&self.x, self.x.range(points().map(|point| point.0))),
                 divided(&self.y, self.y.range(points().map(|point| point.1))),
@@ -300,13 +334,15 @@ impl Chart {
             let stroke = color.stroke_width(2);
             let mark = series.mark;
             let line = move |(x, y)| PathElement::new([(x, y), (x + 20, y)], stroke);
+            let thin = color.stroke_width(1);
+            let dashes = move |(x, y)| PathElement::new([(x, y), (x + 20, y)], thin);
             let drawn = match mark {
                 Mark::Line | Mark::LineAndDiscs => {
                     chart.draw_series(LineSeries::new(places.iter().copied(), stroke))?.legend(line)
                 }
-                Mark::Dashes => chart
+                Mark::Dashes | Mark::DashesAndDiscs => chart
                     .draw_series(DashedLineSeries::new(places.iter().copied(), 6, 5, stroke))?
-                    .legend(line),
+                    .legend(dashes),
                 Mark::Rings => chart
                     .draw_series(places.iter().map(|&place| Circle::new(place, 8, stroke)))?
                     .legend(move |(x, y)| Circle::new((x + 10, y), 6, stroke)),
@@ -314,7 +350,7 @@ impl Chart {
             if !series.name.is_empty() {
                 drawn.label(&series.name);
             }
-            if mark == Mark::LineAndDiscs {
+            if matches!(mark, Mark::LineAndDiscs | Mark::DashesAndDiscs) {
                 let discs = places.iter().map(|&place| Circle::new(place, 3, color.filled()));
                 chart.draw_series(discs)?;
             }
@@ -324,7 +360,13 @@ impl Chart {
         }
         chart
             .configure_series_labels()
-            .position(self.emptiest_corner())
+            .position(match is_beside {
+                true => SeriesLabelPosition::Coordinate(
+                    width as i32 - (MARGIN + LABELS + legend as i32),
+                    0,
+                ),
+                false => self.emptiest_corner(),
+            })
             .legend_area_size(28)
             .label_font((FONT, 13))
             .background_style(WHITE.mix(0.85))

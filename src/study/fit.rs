@@ -73,12 +73,45 @@ impl Line {
 /// ```
 #[must_use]
 pub fn power(points: &[(f64, f64)]) -> Option<Estimate> {
-    let logarithms: Vec<_> = points
-        .iter()
-        .filter(|(x, y)| *x > 0.0 && *y > 0.0)
-        .map(|(x, y)| (x.ln(), y.ln()))
-        .collect();
-    Line::through(&logarithms).map(|line| line.slope)
+    Line::through(&logarithms(points)).map(|line| line.slope)
+}
+
+/// The power `p` of laws `y ∝ xᵖ` that differ in the factor only, through groups
+/// of points, by least squares over all of them. Points that are not positive
+/// are left out; `None` where no group has two different `x`.
+///
+/// ```
+/// use carom::study::fit::common_power;
+/// let groups = [vec![(1.0, 3.0), (2.0, 12.0)], vec![(1.0, 5.0), (4.0, 80.0)]];
+/// let order = common_power(&groups).ok_or("no law")?;
+/// assert!((order.value - 2.0).abs() < 1e-14);
+/// # Ok::<(), &str>(())
+/// ```
+#[must_use]
+pub fn common_power(groups: &[Vec<(f64, f64)>]) -> Option<Estimate> {
+    // About the centre of its group each point tells of the slope only.
+    let mut centered = Vec::new();
+    let mut factors = 0;
+    for group in groups {
+        let logarithms = logarithms(group);
+        let center =
+            |pick: fn(&(f64, f64)) -> f64| mean(&logarithms.iter().map(pick).collect::<Vec<f64>>());
+        let (x, y) = (center(|point| point.0), center(|point| point.1));
+        factors += usize::from(!logarithms.is_empty());
+        centered.extend(logarithms.iter().map(|point| (point.0 - x, point.1 - y)));
+    }
+    let slope = Line::through(&centered)?.slope;
+    // The line has allowed for one factor.
+    let freedom = centered.len() as f64 - 2.0;
+    let left = freedom + 1.0 - factors as f64;
+    let error = if left > 0.0 { slope.error * (freedom / left).sqrt() } else { 0.0 };
+    Some(Estimate { error, ..slope })
+}
+
+/// The logarithms of points whose two figures are positive.
+fn logarithms(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let positive = points.iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
+    positive.map(|(x, y)| (x.ln(), y.ln())).collect()
 }
 
 /// A figure of several runs, and its standard error from the figures of all

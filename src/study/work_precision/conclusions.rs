@@ -7,7 +7,7 @@ use super::quantity::Quantity;
 use crate::engine::Impact;
 use crate::motion::Integrator;
 use crate::scene::Precision;
-use crate::study::fit::{Estimate, power};
+use crate::study::fit::{Estimate, common_power};
 
 /// A method with its time and its error at the last of the times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -50,7 +50,8 @@ pub enum Found {
     /// It does not come of the step, or grows with the number of steps: so much
     /// at most.
     Rounding(f64),
-    /// Too few steps have an error that tells.
+    /// Too few errors are small, but greater than rounding. An order is a law of
+    /// small errors: shorter steps or earlier times may show it.
     Nothing,
 }
 
@@ -77,45 +78,61 @@ impl Theory {
     }
 }
 
-/// An error this many times as great as that of the exact times in the same precision does
-/// not come of rounding.
+/// An error this many times as great as that of the exact times in the same
+/// precision does not come of rounding.
 const ABOVE_ROUNDING: f64 = 30.0;
 
-/// The order of each family with steps, of results whose trajectories are not
-/// lost. `size` is what an error is small against.
-pub(super) fn orders(results: &[Judged], motion: Motion, size: f64) -> Vec<Order> {
+/// An error above this part of its scale is not small.
+const SMALL: f64 = 0.1;
+
+/// The order of each family with steps, of the results at several times. `size`
+/// is what an error is small against.
+///
+/// Times have factors of their own, and one order: the error of a time depends
+/// on where in a step the last impacts happened to fall, and all together on it
+/// less.
+pub(super) fn orders(times: &[Vec<Judged>], motion: Motion, size: f64) -> Vec<Order> {
     let mut families: Vec<Family> = Vec::new();
-    for family in results.iter().map(|result| result.method.family()) {
+    for family in times.iter().flatten().map(|result| result.method.family()) {
         if family.stepping.is_some() && !families.contains(&family) {
             families.push(family);
         }
     }
     let order = |family: Family| {
         let exact = Family { stepping: None, ..family };
-        let of =
-            |wanted: Family| results.iter().filter(move |result| result.method.family() == wanted);
         let epsilon = match family.precision {
             Precision::F32 => f64::from(f32::EPSILON),
             Precision::F64 => f64::EPSILON,
         };
-        let rounding = of(exact).map(|result| result.error).fold(epsilon * size, f64::max);
-        let points: Vec<(f64, f64)> = of(family)
-            .filter_map(|result| result.method.stepping.map(|s| (s.dt, result.error)))
-            .collect();
-        let above: Vec<_> = points
-            .iter()
-            .copied()
-            .filter(|(_, error)| *error > ABOVE_ROUNDING * rounding)
-            .collect();
-        let worst = points.iter().map(|(_, error)| *error).fold(0.0, f64::max);
-        let found = match (above.len(), points.len()) {
-            (0, 1..) => Found::Rounding(worst),
-            (3.., _) => match power(&above) {
+        let (mut telling, mut worst) = (Vec::new(), 0.0);
+        let mut is_above = false;
+        for results in times {
+            let of = |wanted: Family| {
+                results.iter().filter(move |result| result.method.family() == wanted)
+            };
+            let rounding = of(exact).map(|result| result.error).fold(epsilon * size, f64::max);
+            let points: Vec<(f64, f64)> = of(family)
+                .filter_map(|result| result.method.stepping.map(|s| (s.dt, result.error)))
+                .collect();
+            worst = points.iter().map(|(_, error)| *error).fold(worst, f64::max);
+            is_above |= points.iter().any(|(_, error)| *error > ABOVE_ROUNDING * rounding);
+            telling.push(
+                points
+                    .into_iter()
+                    .filter(|(_, error)| {
+                        *error > ABOVE_ROUNDING * rounding && *error < SMALL * size
+                    })
+                    .collect::<Vec<_>>(),
+            );
+        }
+        let found = match telling.iter().map(Vec::len).sum() {
+            _ if !is_above => Found::Rounding(worst),
+            0..4_usize => Found::Nothing,
+            _ => match common_power(&telling) {
                 Some(power) if power.value < 0.25 => Found::Rounding(worst),
                 Some(power) => Found::Power(power),
                 None => Found::Nothing,
             },
-            _ => Found::Nothing,
         };
         Order { family, theory: Theory::of(&family, motion), found }
     };
@@ -185,12 +202,12 @@ mod tests {
         let motion = Motion { has_field: true, has_collisions: false };
         let mut results: Vec<Judged> = (1..8)
             .map(|k| 0.5_f64.powi(k))
-            .map(|dt| result(Some(dt), 1.0 / dt, 3.0 * dt))
+            .map(|dt| result(Some(dt), 1.0 / dt, 0.3 * dt))
             .collect();
         results.push(result(None, 1.0, 1e-15));
         // One at the rounding does not spoil the fit.
         results.push(result(Some(1e-9), 1e9, 1e-15));
-        let orders = orders(&results, motion, 1.0);
+        let orders = orders(&[results], motion, 1.0);
         assert_eq!(orders.len(), 1);
         assert_eq!(orders[0].theory, Theory::First);
         let Found::Power(power) = orders[0].found else { panic!("{:?}", orders[0].found) };
@@ -200,10 +217,14 @@ mod tests {
     #[test]
     fn what_does_not_depend_on_the_step_is_rounding() {
         let motion = Motion { has_field: false, has_collisions: false };
-        let results: Vec<Judged> =
-            (1..8).map(|k| result(Some(0.5_f64.powi(k)), 1.0, f64::from(k) * 1e-16)).collect();
-        let orders = orders(&results, motion, 1.0);
-        assert_eq!((orders[0].theory, orders[0].found), (Theory::Exact, Found::Rounding(7e-16)));
+        let results: Vec<Judged> = (1..8)
+            .map(|k| result(Some(0.5_f64.powi(k)), 1.0, f64::from(k) * 0.5_f64.powi(53)))
+            .collect();
+        let orders = orders(&[results], motion, 1.0);
+        assert_eq!(
+            (orders[0].theory, orders[0].found),
+            (Theory::Exact, Found::Rounding(7.0 * 0.5_f64.powi(53)))
+        );
     }
 
     #[test]

@@ -75,7 +75,12 @@ impl Method {
     pub(super) fn time_near(&self, stated: f64) -> f64 {
         match self.stepping {
             None => stated,
-            Some(Stepping { dt, .. }) => (stated / dt).round().max(1.0) * dt,
+            Some(Stepping { dt, .. }) => {
+                let time = (stated / dt).round().max(1.0) * dt;
+                // Steps that should end there do, but for a rounding.
+                let is_there = (time - stated).abs() <= 4.0 * f64::EPSILON * stated;
+                if is_there { stated } else { time }
+            }
         }
     }
 }

@@ -101,7 +101,7 @@ impl Report {
             judged: sweep.times.len().saturating_sub(1),
         };
         // The last time at which anything is to be told.
-        while report.judged > 0 && report.results(quantity).is_empty() {
+        while report.judged > 0 && report.results(report.judged, quantity).is_empty() {
             report.judged -= 1;
         }
         report.time = sweep.times.get(report.judged).copied().unwrap_or(0.0);
@@ -109,10 +109,12 @@ impl Report {
             .into_iter()
             .map(|quantity| {
                 let size = size(quantity, scale.length, scale.speed);
-                (quantity, orders(&report.results(quantity), motion, size))
+                let results = |time| report.results(time, quantity);
+                let times: Vec<_> = (0..=report.judged).map(results).collect();
+                (quantity, orders(&times, motion, size))
             })
             .collect();
-        report.front = pareto_front(&report.results(quantity));
+        report.front = pareto_front(&report.results(report.judged, quantity));
         report.advice = advice(&report.front);
         report.take_notes(motion);
         report
@@ -143,7 +145,7 @@ impl Report {
                 self.time
             ));
         }
-        if self.results(self.quantity).is_empty() {
+        if self.results(self.judged, self.quantity).is_empty() {
             notes.push(
                 "Every trajectory is lost at every one of the times: only energy and averages \
                  are figures there. Give a shorter --duration."
@@ -166,12 +168,13 @@ impl Report {
         moment.deviation.filter(|_| is_told).map(|deviation| quantity.of(&deviation))
     }
 
-    /// Times and errors of all methods that are not lost at the judged time.
-    fn results(&self, quantity: Quantity) -> Vec<Judged> {
+    /// Times on the wall and errors of all methods that are not lost at one of
+    /// the times.
+    fn results(&self, time: usize, quantity: Quantity) -> Vec<Judged> {
         let methods = self.sweep.methods.iter().zip(&self.outcomes);
         methods
             .filter_map(|(method, outcome)| {
-                let error = self.error(outcome.moments.get(self.judged)?, quantity)?;
+                let error = self.error(outcome.moments.get(time)?, quantity)?;
                 Some(Judged { method: *method, seconds: outcome.timings.first()?.median, error })
             })
             .collect()
@@ -232,16 +235,22 @@ impl Report {
 
     /// The work–precision diagram.
     fn picture(&self) -> Picture {
-        let results = self.results(self.quantity);
+        let results = self.results(self.judged, self.quantity);
         let place = |result: &Judged| (result.seconds, result.error);
         let families = self.families();
+        // A colour for each engine, whatever the precision.
+        let mut steppings: Vec<_> = families.iter().map(|family| family.stepping).collect();
+        steppings.dedup();
+        let color = |family: &Family| steppings.iter().position(|s| *s == family.stepping);
         let mut series: Vec<Series> = families
             .iter()
-            .enumerate()
-            .map(|(k, family)| Series {
+            .map(|family| Series {
                 name: family.to_string(),
-                color: Some(k),
-                mark: Mark::LineAndDiscs,
+                color: color(family),
+                mark: match family.precision {
+                    Precision::F32 => Mark::DashesAndDiscs,
+                    Precision::F64 => Mark::LineAndDiscs,
+                },
                 points: results
                     .iter()
                     .filter(|result| result.method.family() == *family)
@@ -431,7 +440,11 @@ impl fmt::Display for Report {
             writeln!(f, "Times: median of {} runs, lanes {lanes}, {threads}.", self.sweep.runs)?;
         }
         writeln!(f, "\n{}", self.errors())?;
-        writeln!(f, "Order of convergence\n{}", self.orders_of_convergence())?;
+        writeln!(
+            f,
+            "Order of convergence, of all times up to there\n{}",
+            self.orders_of_convergence()
+        )?;
         if self.sweep.executions.len() > 1 {
             writeln!(f, "Time on other executions\n{}", self.executions())?;
         }

@@ -157,10 +157,10 @@ fn checked(what: &str, asked: &[f64]) -> Result<Vec<f64>, StudyError> {
     }
 }
 
-/// The times asked for, or an eighth, a quarter, a half and all of the way.
+/// The times asked for, or the ends of each eighth of the way.
 fn times(asked: &Asked, end: f64) -> Result<Vec<f64>, StudyError> {
     match asked.times.as_slice() {
-        [] => Ok([0.125, 0.25, 0.5, 1.0].map(|part| part * end).to_vec()),
+        [] => Ok((1..=8).map(|eighth| end * f64::from(eighth) / 8.0).collect()),
         asked => checked("times", asked),
     }
 }
