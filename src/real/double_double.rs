@@ -181,6 +181,10 @@ impl Lane for DoubleDouble {
         if mask { yes } else { no }
     }
 
+    fn nearest_small_whole(self) -> Self {
+        self.nearest_whole()
+    }
+
     // A great number added and taken off again leaves the fraction in the low
     // half.
     fn nearest_whole(self) -> Self {

@@ -69,11 +69,16 @@ impl Theory {
     /// error of first order; velocity Verlet is the exact parabola on a uniform
     /// field. An impact at the end of a step comes late by up to a step, and its
     /// normal is off by the overlap; an impact at its time is exact where the
-    /// flight is.
-    fn of(family: &Family, motion: Motion) -> Self {
+    /// flight is. Neither takes energy.
+    fn of(family: &Family, motion: Motion, quantity: Quantity) -> Self {
         let Some((integrator, impact)) = family.stepping else { return Self::Exact };
-        let flight = motion.has_field && integrator != Integrator::VelocityVerlet;
-        let late = motion.has_collisions && impact == Impact::EndOfStep;
+        // All integrators change velocities by aΔt, which is exact until a
+        // collision comes at a wrong time.
+        let flight = motion.has_field
+            && integrator != Integrator::VelocityVerlet
+            && (quantity != Quantity::Velocity || motion.has_collisions);
+        let late =
+            motion.has_collisions && impact == Impact::EndOfStep && quantity != Quantity::Energy;
         if flight || late { Self::First } else { Self::Exact }
     }
 }
@@ -85,13 +90,18 @@ const ABOVE_ROUNDING: f64 = 30.0;
 /// An error above this part of its scale is not small.
 const SMALL: f64 = 0.1;
 
-/// The order of each family with steps, of the results at several times. `size`
-/// is what an error is small against.
+/// The order of each family with steps, of the results at several times, judged
+/// by a quantity whose error is small against `size`.
 ///
 /// Times have factors of their own, and one order: the error of a time depends
 /// on where in a step the last impacts happened to fall, and all together on it
 /// less.
-pub(super) fn orders(times: &[Vec<Judged>], motion: Motion, size: f64) -> Vec<Order> {
+pub(super) fn orders(
+    times: &[Vec<Judged>],
+    motion: Motion,
+    quantity: Quantity,
+    size: f64,
+) -> Vec<Order> {
     let mut families: Vec<Family> = Vec::new();
     for family in times.iter().flatten().map(|result| result.method.family()) {
         if family.stepping.is_some() && !families.contains(&family) {
@@ -104,37 +114,39 @@ pub(super) fn orders(times: &[Vec<Judged>], motion: Motion, size: f64) -> Vec<Or
             Precision::F32 => f64::from(f32::EPSILON),
             Precision::F64 => f64::EPSILON,
         };
-        let (mut telling, mut worst) = (Vec::new(), 0.0);
-        let mut is_above = false;
+        let (mut telling, mut worst) = (Vec::<Vec<(f64, f64)>>::new(), 0.0);
+        let mut any_above = false;
+        let theory = Theory::of(&family, motion, quantity);
         for results in times {
             let of = |wanted: Family| {
                 results.iter().filter(move |result| result.method.family() == wanted)
             };
             let rounding = of(exact).map(|result| result.error).fold(epsilon * size, f64::max);
-            let points: Vec<(f64, f64)> = of(family)
+            let is_above = |error: f64| error > ABOVE_ROUNDING * rounding;
+            let mut points: Vec<(f64, f64)> = of(family)
                 .filter_map(|result| result.method.stepping.map(|s| (s.dt, result.error)))
                 .collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
             worst = points.iter().map(|(_, error)| *error).fold(worst, f64::max);
-            is_above |= points.iter().any(|(_, error)| *error > ABOVE_ROUNDING * rounding);
-            telling.push(
-                points
-                    .into_iter()
-                    .filter(|(_, error)| {
-                        *error > ABOVE_ROUNDING * rounding && *error < SMALL * size
-                    })
-                    .collect::<Vec<_>>(),
-            );
+            any_above |= points.iter().any(|(_, error)| is_above(*error));
+            // Without gaps: to pick the small errors of long steps would pick the
+            // lucky ones.
+            let from_shortest = points.into_iter().skip_while(|(_, error)| !is_above(*error));
+            telling.push(from_shortest.take_while(|(_, error)| *error < SMALL * size).collect());
         }
         let found = match telling.iter().map(Vec::len).sum() {
-            _ if !is_above => Found::Rounding(worst),
+            _ if !any_above => Found::Rounding(worst),
             0..4_usize => Found::Nothing,
             _ => match common_power(&telling) {
-                Some(power) if power.value < 0.25 => Found::Rounding(worst),
+                // Each step rounds.
+                Some(power) if theory == Theory::Exact && power.value < 0.25 => {
+                    Found::Rounding(worst)
+                }
                 Some(power) => Found::Power(power),
                 None => Found::Nothing,
             },
         };
-        Order { family, theory: Theory::of(&family, motion), found }
+        Order { family, theory, found }
     };
     families.into_iter().map(order).collect()
 }
@@ -207,7 +219,7 @@ mod tests {
         results.push(result(None, 1.0, 1e-15));
         // One at the rounding does not spoil the fit.
         results.push(result(Some(1e-9), 1e9, 1e-15));
-        let orders = orders(&[results], motion, 1.0);
+        let orders = orders(&[results], motion, Quantity::Position, 1.0);
         assert_eq!(orders.len(), 1);
         assert_eq!(orders[0].theory, Theory::First);
         let Found::Power(power) = orders[0].found else { panic!("{:?}", orders[0].found) };
@@ -220,7 +232,7 @@ mod tests {
         let results: Vec<Judged> = (1..8)
             .map(|k| result(Some(0.5_f64.powi(k)), 1.0, f64::from(k) * 0.5_f64.powi(53)))
             .collect();
-        let orders = orders(&[results], motion, 1.0);
+        let orders = orders(&[results], motion, Quantity::Position, 1.0);
         assert_eq!(
             (orders[0].theory, orders[0].found),
             (Theory::Exact, Found::Rounding(7.0 * 0.5_f64.powi(53)))

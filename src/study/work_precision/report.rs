@@ -111,7 +111,7 @@ impl Report {
                 let size = size(quantity, scale.length, scale.speed);
                 let results = |time| report.results(time, quantity);
                 let times: Vec<_> = (0..=report.judged).map(results).collect();
-                (quantity, orders(&times, motion, size))
+                (quantity, orders(&times, motion, quantity, size))
             })
             .collect();
         report.front = pareto_front(&report.results(report.judged, quantity));
@@ -404,13 +404,10 @@ impl Report {
         let mut table = Table::of_texts();
         let groups = self.advice.chunk_by(|(_, one), (_, other)| one.method == other.method);
         for group in groups {
-            let (Some((greatest, result)), Some((least, _))) = (group.first(), group.last()) else {
-                continue;
-            };
-            let label = match () {
-                () if *greatest == 0.0 => "  any".to_owned(),
-                () if greatest == least => format!("  {least:.0e}"),
-                () => format!("  {greatest:.0e} to {least:.0e}"),
+            let Some((bound, result)) = group.last() else { continue };
+            let label = match bound {
+                0.0 => "  any".to_owned(),
+                bound => format!("  down to {bound:.0e}"),
             };
             let found = format!("{}, error {}", seconds(result.seconds), size_of(result.error));
             table.row(&label, [result.method.to_string(), found]);

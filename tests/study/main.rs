@@ -1,0 +1,10 @@
+//! The studies: orders, laws and figures that they have to find.
+
+mod work_precision;
+
+use carom::scene::SceneFile;
+
+/// A scene from its text.
+fn scene(text: &str) -> SceneFile {
+    SceneFile::parse("scene", text).unwrap()
+}

@@ -1,0 +1,214 @@
+//! Run time against error: the orders that theory says, and what is told where
+//! there is nothing to tell.
+
+use carom::engine::{Impact, Lanes};
+use carom::motion::Integrator;
+use carom::scene::{Precision, SceneFile};
+use carom::study::work_precision::{Asked, Family, Found, Quantity, Report, Theory, WorkPrecision};
+use carom::study::{Folder, Journal};
+
+use super::scene;
+
+/// A throw that meets nothing.
+const THROW: &str = r#"
+duration = 2.0
+gravity = [0.0, -1.0, -9.75]
+
+[stepped]
+dt = 0.01
+
+[[spheres]]
+position = [0.0, 0.0, 0.0]
+velocity = [1.0, 2.0, 3.0]
+spin = [3.0, 2.0, 1.0]
+radius = 0.5
+"#;
+
+/// Rough balls of different sizes that fall about in a box.
+const BOX: &str = r#"
+duration = 1.0
+gravity = [0.0, 0.0, -1.0]
+seed = 5
+
+[stepped]
+dt = 0.004
+
+[surface]
+kind = "rough"
+
+[[surroundings]]
+shape = "box"
+lower = [0.0, 0.0, 0.0]
+upper = [4.0, 4.0, 4.0]
+inside = true
+
+[[spheres]]
+count = 24
+arrangement = "random"
+radius = [0.2, 0.4]
+mass = [1.0, 3.0]
+temperature = 1.0
+"#;
+
+/// A fluid that nobody can foretell for long.
+const FLUID: &str = r#"
+duration = 20.0
+periodic = "cube"
+
+[stepped]
+dt = 0.002
+
+[[spheres]]
+count = 32
+arrangement = "fcc"
+number_density = 0.5
+radius = 0.5
+temperature = 1.0
+"#;
+
+/// The usual, but quick, in one lane and in the fastest.
+fn quick() -> Asked {
+    Asked { lanes: vec![Lanes::Auto, Lanes::Scalar], runs: Some(1), ..Asked::default() }
+}
+
+fn study(file: &SceneFile, asked: &Asked) -> Report {
+    let study = WorkPrecision::new(file, asked).unwrap();
+    study.run(&Journal::unwritten(), Quantity::Position, &()).unwrap()
+}
+
+/// What was found of a quantity in `f64`, by the family's name.
+fn found(report: &Report, quantity: Quantity) -> Vec<(String, Theory, Found)> {
+    let (_, orders) = report.orders.iter().find(|(of, _)| *of == quantity).unwrap();
+    let fine = orders.iter().filter(|order| order.family.precision == Precision::F64);
+    fine.map(|order| (order.family.to_string(), order.theory, order.found)).collect()
+}
+
+#[test]
+fn integrators_have_their_orders() {
+    let report = study(&scene(THROW), &quick());
+    assert!(report.notes.iter().any(|note| note.contains("Nothing collides")));
+    let orders = found(&report, Quantity::Position);
+    assert_eq!(orders.len(), 3);
+    for (name, theory, found) in orders {
+        match (theory, found) {
+            (Theory::First, Found::Power(power)) => {
+                assert!((power.value - 1.0).abs() < 1e-3, "{name}: {power:?}");
+            }
+            (Theory::Exact, Found::Rounding(worst)) => {
+                assert!(name.starts_with("velocity Verlet") && worst < 1e-11, "{name}: {worst}");
+            }
+            other => panic!("{name}: {other:?}"),
+        }
+    }
+    // The error of semi-implicit Euler is ½ |a| t Δt.
+    let (method, outcome) = report.sweep.methods.iter().zip(&report.outcomes).last().unwrap();
+    assert_eq!(method.precision, Precision::F64);
+    assert!(outcome.moments.iter().all(|moment| moment.deviation.unwrap().position < 1e-11));
+    let (method, outcome) = (report.sweep.methods.iter().zip(&report.outcomes))
+        .find(|(method, _)| method.to_string().starts_with("semi-implicit Euler, end of step, f64"))
+        .unwrap();
+    let moment = outcome.moments.last().unwrap();
+    let law = 0.5 * (1.0_f64 + 9.75 * 9.75).sqrt() * moment.time * method.stepping.unwrap().dt;
+    assert!((moment.deviation.unwrap().position / law - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn impacts_within_a_step_are_better_by_their_order() {
+    let report = study(&scene(BOX), &quick());
+    assert!(!report.notes.iter().any(|note| note.contains("Nothing collides")));
+    for (name, theory, found) in found(&report, Quantity::Position) {
+        match (theory, found) {
+            (Theory::First, Found::Power(power)) => {
+                let within = 0.15 + 3.0 * power.error;
+                assert!((power.value - 1.0).abs() < within && within < 0.7, "{name}: {power:?}");
+            }
+            (Theory::Exact, Found::Rounding(worst)) => {
+                assert_eq!(name, "velocity Verlet, sub-step, f64");
+                assert!(worst < 1e-9, "{worst}");
+            }
+            other => panic!("{name}: {other:?}"),
+        }
+    }
+    // At exact times there is rounding only, and it grows with the collisions.
+    for (method, outcome) in report.sweep.methods.iter().zip(&report.outcomes) {
+        if *method.to_string() == *"event-driven, f64" {
+            let first = outcome.moments[0].deviation.unwrap();
+            let last = outcome.moments.last().unwrap().deviation.unwrap();
+            assert!(first.position < 1e-14 && last.position < 1e-11, "{first:?} {last:?}");
+            assert!(last.energy.abs() < 1e-14);
+        }
+    }
+    // Whoever wants digits is told to take what is exact.
+    let (bound, best) = report.advice.last().unwrap();
+    let Family { precision, stepping } = best.method.family();
+    let exact = [None, Some((Integrator::VelocityVerlet, Impact::SubStep))];
+    assert!(*bound < 1e-11 && precision == Precision::F64 && exact.contains(&stepping), "{best:?}");
+}
+
+#[test]
+fn past_predictability_there_is_no_figure() {
+    let report = study(&scene(FLUID), &quick());
+    let lost = report.scale.f32_lost.unwrap();
+    assert!(report.time < lost && lost < 20.0);
+    assert!(report.notes.iter().any(|note| note.starts_with("Chaotic")));
+
+    // Who asks for more is told that nothing is left of the trajectories.
+    let file = scene(FLUID);
+    let asked = Asked {
+        duration: file.duration,
+        precisions: vec![Precision::F32],
+        times: vec![0.2, 18.0, 20.0],
+        ..quick()
+    };
+    let report = study(&file, &asked);
+    assert!(report.notes.iter().any(|note| note.contains("every method has lost")));
+    assert_eq!(report.time, 0.2);
+    // Of the energy there is.
+    let journal = Journal::unwritten();
+    let study = WorkPrecision::new(&file, &asked).unwrap();
+    let report = study.run(&journal, Quantity::Energy, &()).unwrap();
+    assert_eq!(report.time, 20.0);
+    assert!(report.front.iter().all(|best| best.error < 1e-5));
+}
+
+#[test]
+fn goes_on_where_it_was() {
+    let file = scene(BOX);
+    let asked = Asked { precisions: vec![Precision::F32], ..quick() };
+    let study = WorkPrecision::new(&file, &asked).unwrap();
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = Folder::open(temporary.path()).unwrap();
+    let journal = folder.journal(study.sweep()).unwrap();
+    let first = study.run(&journal, Quantity::Position, &()).unwrap();
+    drop(journal);
+
+    // Interrupted in the middle of a line.
+    let path = temporary.path().join("points.jsonl");
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, &text[..text.len() / 2]).unwrap();
+    let journal = folder.journal(study.sweep()).unwrap();
+    let points = journal.len();
+    assert!(points > 0 && points < study.sweep().methods.len());
+    let second = study.run(&journal, Quantity::Position, &()).unwrap();
+    for (k, (first, second)) in first.outcomes.iter().zip(&second.outcomes).enumerate() {
+        assert_eq!((&first.moments, &first.state_hash), (&second.moments, &second.state_hash));
+        // What was there is not measured again.
+        assert_eq!(first.timings == second.timings, k < points);
+    }
+    second.write(&folder).unwrap();
+    for name in ["error.csv", "error.json", "report.txt", "scene.toml", "work-precision.png"] {
+        assert!(std::fs::metadata(temporary.path().join(name)).unwrap().len() > 0, "{name}");
+    }
+    let json = std::fs::read_to_string(temporary.path().join("error.json")).unwrap();
+    assert!(serde_json::from_str::<serde_json::Value>(&json).is_ok());
+}
+
+#[test]
+fn what_is_not_possible_is_said() {
+    let refused = |asked: Asked| {
+        WorkPrecision::new(&scene(THROW), &asked).map(|_| ()).unwrap_err().to_string()
+    };
+    assert!(refused(Asked { runs: Some(0), ..quick() }).contains("0 runs"));
+    assert!(refused(Asked { steps: vec![-1.0], ..quick() }).contains("steps: -1"));
+    assert!(refused(Asked { times: vec![f64::NAN], ..quick() }).contains("NaN"));
+}
