@@ -20,6 +20,7 @@
 
 mod pack;
 mod twin;
+mod widened;
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -27,6 +28,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use crate::real::Real;
 
 pub use twin::Twin;
+pub use widened::Widened;
 
 /// One truth value for each lane.
 pub trait Mask:

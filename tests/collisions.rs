@@ -2,7 +2,7 @@
 //! collisions, special cases of the formula, and the bias of the energy.
 
 use carom::contact::{Impulse, Party, collide};
-use carom::lane::{Lane, Mask, Twin};
+use carom::lane::{Lane, Mask, Twin, Widened};
 use carom::real::Real;
 use carom::vec3::Vec3;
 use rand::{RngExt, SeedableRng};
@@ -67,7 +67,7 @@ fn most<T: Real>(values: &[T]) -> f64 {
 
 /// Asserts that all cases are right to 4ε, each component against the greatest
 /// speed of the case: of the centres, and of the surfaces.
-fn cases_are_exact<L: Lane>() {
+fn cases_are_exact<L: Lane>() -> f64 {
     let text = include_str!("data/collisions.json");
     let cases: Value = serde_json::from_str(text).unwrap();
     let epsilon = L::Scalar::EPSILON.to_f64();
@@ -107,6 +107,7 @@ fn cases_are_exact<L: Lane>() {
         }
     }
     println!("{} × {}: {worst:.2} ε", L::Scalar::NAME, L::WIDTH);
+    worst
 }
 
 #[test]
@@ -120,6 +121,14 @@ fn exact_cases_in_every_lane() {
     cases_are_exact::<f64x4>();
     cases_are_exact::<f64x8>();
     cases_are_exact::<Twin<f64x8>>();
+}
+
+#[test]
+fn mixed_precision_rounds_only_what_it_stores() {
+    // Half a unit of a result, and the rounding of the given inverses and shares
+    // to f32.
+    let worst = cases_are_exact::<Widened<f64x8, 8>>();
+    assert!(worst < 1.0, "{worst}");
 }
 
 fn uniform<T: Real>(random: &mut ChaCha8Rng) -> T {
