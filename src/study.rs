@@ -4,6 +4,7 @@
 //! [journal](Journal) as soon as they are there.
 
 pub mod chart;
+pub mod clock;
 pub mod deviation;
 mod error;
 pub mod fit;
