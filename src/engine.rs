@@ -50,7 +50,8 @@ pub enum OrientationUpdate {
 }
 
 /// How many reals a kernel works on at once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Lanes {
     /// The fastest widths for each kernel.
     #[default]
@@ -58,10 +59,13 @@ pub enum Lanes {
     /// One: the scalar reference path.
     Scalar,
     /// Four.
+    #[serde(rename = "4")]
     Four,
     /// Eight.
+    #[serde(rename = "8")]
     Eight,
     /// Sixteen.
+    #[serde(rename = "16")]
     Sixteen,
 }
 

@@ -34,6 +34,9 @@ pub enum StudyError {
         .0.display()
     )]
     AnotherStudy(PathBuf),
+    /// Variants that change no bit have changed some.
+    #[error("{0}: this is a mistake in carom, please report it with the scene and the machine")]
+    DifferentBits(String),
     /// A result could not be written to its end.
     #[error(transparent)]
     Output(#[from] OutputError),

@@ -1,0 +1,129 @@
+//! The report as a person reads it, in 100 columns.
+
+use core::fmt;
+
+use super::{Report, Row, SpeedUp};
+use crate::engine::EngineKind;
+use crate::output::table::{Table, counted, grouped, rounded};
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let engine = match self.engine {
+            EngineKind::Stepped => "stepped",
+            EngineKind::EventDriven => "event-driven",
+        };
+        writeln!(f, "{}: time and memory against size, {engine} engine", self.subject.name)?;
+        for line in self.machine.to_string().split("; ") {
+            writeln!(f, "{line}")?;
+        }
+        writeln!(f, "\n{}", self.times())?;
+        let runs = counted(self.settings.runs as u64, "run");
+        writeln!(
+            f,
+            "Medians of {runs}, and in brackets their quartiles, all variants of a size in"
+        )?;
+        writeln!(f, "turn. Speed-up: threads over {}, lanes over the", self.first_threads())?;
+        writeln!(
+            f,
+            "scalar path. Peak: of the whole process with one world, its making included.\n"
+        )?;
+        if !self.powers.is_empty() {
+            writeln!(f, "{}", self.laws())?;
+        }
+        if self.engine == EngineKind::EventDriven {
+            writeln!(
+                f,
+                "The event-driven engine works on one thread: a collision needs the one before."
+            )?;
+        }
+        if self.differing.is_empty() {
+            return writeln!(f, "All variants of a size end in the same bits.");
+        }
+        writeln!(f, "DIFFERENT BITS, where all have to be the same:")?;
+        self.differing.iter().try_for_each(|words| writeln!(f, "  {words}"))
+    }
+}
+
+impl Report {
+    fn first_threads(&self) -> String {
+        counted(self.settings.threads[0] as u64, "thread")
+    }
+
+    fn times(&self) -> Table {
+        let mut table = Table::default();
+        let time = self.unit();
+        table.row(
+            &" ".repeat(28),
+            [time, "", "speed-up", "", "bytes a body", "peak MB"].map(str::to_owned),
+        );
+        for rows in &self.points {
+            if let Some(first) = rows.first() {
+                table.row(&format!("{}, {} bodies", first.precision, grouped(first.bodies)), []);
+            }
+            for row in rows {
+                let time = self.nanoseconds(row);
+                let ratio = self.speed_up(row);
+                let cells = [
+                    rounded(time.median),
+                    range(time.lower_quartile, time.upper_quartile),
+                    ratio.map_or(String::new(), |ratio| rounded(ratio.median)),
+                    ratio.map_or(String::new(), |ratio| {
+                        range(ratio.lower_quartile, ratio.upper_quartile)
+                    }),
+                    rounded(row.bytes as f64 / row.bodies as f64),
+                    row.peak_resident.map_or(String::new(), |bytes| rounded(bytes as f64 * 1e-6)),
+                ];
+                table.row(&label(row), cells);
+            }
+        }
+        table
+    }
+
+    /// What the times are.
+    pub(super) fn unit(&self) -> &'static str {
+        match self.engine {
+            EngineKind::Stepped => "ns/body/step",
+            EngineKind::EventDriven => "ns/collision",
+        }
+    }
+
+    fn speed_up(&self, row: &Row) -> Option<&SpeedUp> {
+        self.speed_ups.iter().find(|ratio| {
+            (&ratio.precision, ratio.bodies, ratio.threads, &ratio.lanes)
+                == (&row.precision, row.bodies, row.threads, &row.lanes)
+        })
+    }
+
+    fn laws(&self) -> Table {
+        let mut table = Table::of_texts();
+        let of = match self.engine {
+            EngineKind::Stepped => "a step of N bodies takes a time ∝ N^p",
+            EngineKind::EventDriven => "a collision among N bodies takes a time ∝ N^p",
+        };
+        table.row(of, []);
+        for power in &self.powers {
+            let label =
+                format!("  {}, {}", power.precision, counted(power.threads as u64, "thread"));
+            let error = match self.settings.bodies.len() {
+                0..=2 => String::new(),
+                _ => format!(" ± {:.3}", power.power.error),
+            };
+            table.row(&label, [format!("p = {:.3}{error}", power.power.value)]);
+        }
+        table
+    }
+}
+
+/// What a variant is called.
+fn label(row: &Row) -> String {
+    let lanes = match row.lanes.as_str() {
+        "auto" => "lanes auto",
+        "scalar" => "scalar",
+        number => return format!("  {}, {number} lanes", counted(row.threads as u64, "thread")),
+    };
+    format!("  {}, {lanes}", counted(row.threads as u64, "thread"))
+}
+
+fn range(least: f64, greatest: f64) -> String {
+    format!("({} … {})", rounded(least), rounded(greatest))
+}
