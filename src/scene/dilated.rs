@@ -47,7 +47,7 @@ impl SceneFile {
             return Err(refused(reason.to_owned()));
         }
         if bodies <= singles {
-            return Err(refused(format!("it needs more than its {singles} single bodies")));
+            return Err(refused(format!("more are needed than the {singles} with a `position`")));
         }
         let wanted = (bodies - singles) as f64 / grouped;
         let mut file = self.clone();

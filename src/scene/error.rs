@@ -134,7 +134,7 @@ pub enum Problem {
         reason: String,
     },
     /// A scene that cannot have another number of bodies.
-    #[error("cannot be made {bodies} bodies: {reason}")]
+    #[error("cannot number {bodies}: {reason}")]
     Unscalable {
         /// How many were asked for.
         bodies: u64,

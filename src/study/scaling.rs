@@ -82,11 +82,13 @@ impl Scaling {
     /// the journal cannot be written.
     pub fn measure(&self, journal: &Journal, watch: &dyn Watch) -> Result<Report, StudyError> {
         let sizes = self.settings.bodies.len();
+        // From the smallest to the largest: what earlier points leave in the
+        // allocator's hands is little beside what a later one takes.
         let tasks = || {
-            let of = move |&precision: &Precision| {
-                (0..sizes).map(move |size| (precision, self.task(size)))
-            };
-            self.settings.precisions.iter().flat_map(of)
+            (0..sizes).flat_map(|size| {
+                let precisions = self.settings.precisions.iter();
+                precisions.map(move |&precision| (precision, self.task(size)))
+            })
         };
         // What is known already needs no estimate.
         let probe = match journal.len() < tasks().count() {

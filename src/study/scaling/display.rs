@@ -17,16 +17,7 @@ impl fmt::Display for Report {
             writeln!(f, "{line}")?;
         }
         writeln!(f, "\n{}", self.times())?;
-        let runs = counted(self.settings.runs as u64, "run");
-        writeln!(
-            f,
-            "Medians of {runs}, and in brackets their quartiles, all variants of a size in"
-        )?;
-        writeln!(f, "turn. Speed-up: threads over {}, lanes over the", self.first_threads())?;
-        writeln!(
-            f,
-            "scalar path. Peak: of the whole process with one world, its making included.\n"
-        )?;
+        writeln!(f, "{}", self.legend())?;
         if !self.powers.is_empty() {
             writeln!(f, "{}", self.laws())?;
         }
@@ -45,17 +36,22 @@ impl fmt::Display for Report {
 }
 
 impl Report {
-    fn first_threads(&self) -> String {
-        counted(self.settings.threads[0] as u64, "thread")
+    /// What the columns mean.
+    fn legend(&self) -> String {
+        format!(
+            "Medians of {}, each with its quartiles; all variants of a size were run in turn.\n\
+             Speed-up: threads over {}, lanes over the scalar path, within a round.\n\
+             Peak: of the process with one world, the making of its scene included.\n",
+            counted(self.settings.runs as u64, "run"),
+            counted(self.settings.threads[0] as u64, "thread"),
+        )
     }
 
     fn times(&self) -> Table {
         let mut table = Table::default();
         let time = self.unit();
-        table.row(
-            &" ".repeat(28),
-            [time, "", "speed-up", "", "bytes a body", "peak MB"].map(str::to_owned),
-        );
+        let heading = [self.unit(), "", "speed-up", "", "bytes/body", "peak MB"];
+        table.row("", heading.map(str::to_owned));
         for rows in &self.points {
             if let Some(first) = rows.first() {
                 table.row(&format!("{}, {} bodies", first.precision, grouped(first.bodies)), []);
@@ -97,8 +93,8 @@ impl Report {
     fn laws(&self) -> Table {
         let mut table = Table::of_texts();
         let of = match self.engine {
-            EngineKind::Stepped => "a step of N bodies takes a time ∝ N^p",
-            EngineKind::EventDriven => "a collision among N bodies takes a time ∝ N^p",
+            EngineKind::Stepped => "A step of N bodies takes a time ∝ N^p:",
+            EngineKind::EventDriven => "A collision among N bodies takes a time ∝ N^p:",
         };
         table.row(of, []);
         for power in &self.powers {
@@ -116,14 +112,10 @@ impl Report {
 
 /// What a variant is called.
 fn label(row: &Row) -> String {
-    let lanes = match row.lanes.as_str() {
-        "auto" => "lanes auto",
-        "scalar" => "scalar",
-        number => return format!("  {}, {number} lanes", counted(row.threads as u64, "thread")),
-    };
-    format!("  {}, {lanes}", counted(row.threads as u64, "thread"))
+    let unit = if row.lanes.parse::<u32>().is_ok() { " lanes" } else { "" };
+    format!("  {}, {}{unit}", counted(row.threads as u64, "thread"), row.lanes)
 }
 
 fn range(least: f64, greatest: f64) -> String {
-    format!("({} … {})", rounded(least), rounded(greatest))
+    format!("{}–{}", rounded(least), rounded(greatest))
 }

@@ -5,12 +5,13 @@ use serde::{Deserialize, Serialize};
 use super::lanes_name;
 use super::settings::Variant;
 use crate::engine::{EngineKind, World};
-use crate::observe::state_hash;
+use crate::observe::{Totals, state_hash};
 use crate::real::Real;
 use crate::scene::{Precision, SceneFile};
 use crate::study::StudyError;
 use crate::study::clock::{self, Timing, rounds, seconds};
 use crate::study::memory::{forget_peak, peak_resident};
+use crate::vec3::Vec3;
 
 /// A run should take so long, seconds: the clock and the scheduler are then a
 /// small part of it.
@@ -146,6 +147,10 @@ impl Task<'_> {
             .collect();
         let timings = rounds(&mut variants, self.runs)?;
         drop(variants);
+        let end = worlds.first().map(|world| Totals::of(&world.bodies(), Vec3::ZERO));
+        if end.is_some_and(|totals| !totals.is_finite()) {
+            return Err(self.leaves_the_numbers(T::NAME));
+        }
         let rows = self.variants.iter().zip(&worlds).zip(timings);
         let rows = rows.enumerate().map(|(k, ((variant, world), timing))| Row {
             precision: T::NAME.to_owned(),
@@ -197,6 +202,14 @@ impl Task<'_> {
             }
         }
         Ok(())
+    }
+
+    fn leaves_the_numbers(&self, precision: &str) -> StudyError {
+        StudyError::Asked(format!(
+            "with {} bodies in {precision} the state is no longer finite: a smaller --dt, or units \
+             in which lengths and speeds are nearer to 1, may keep it in range",
+            self.bodies
+        ))
     }
 
     fn nothing_happens(&self, time: f64) -> StudyError {

@@ -1,0 +1,3 @@
+//! `carom study`.
+
+mod scaling;

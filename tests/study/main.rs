@@ -1,0 +1,3 @@
+//! Studies, from the outside.
+
+mod scaling;
