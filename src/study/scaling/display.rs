@@ -2,8 +2,8 @@
 
 use core::fmt;
 
-use super::{Report, Row, SpeedUp};
-use crate::engine::EngineKind;
+use super::{Report, Row, Settings, SpeedUp, lanes_name};
+use crate::engine::{EngineKind, Lanes};
 use crate::output::table::{Table, counted, grouped, rounded};
 
 impl fmt::Display for Report {
@@ -38,18 +38,28 @@ impl fmt::Display for Report {
 impl Report {
     /// What the columns mean.
     fn legend(&self) -> String {
+        let Settings { threads, lanes, runs, .. } = &self.settings;
+        let mut over = Vec::new();
+        if threads.len() > 1 {
+            over.push(format!("threads over {}", counted(threads[0] as u64, "thread")));
+        }
+        if lanes.len() > 1 {
+            let base = if lanes.contains(&Lanes::Scalar) { Lanes::Scalar } else { lanes[0] };
+            over.push(format!("lanes over {}", lanes_name(base)));
+        }
+        let speed_up = match over.is_empty() {
+            true => String::new(),
+            false => format!("Speed-up: {}, within a round.\n", over.join(", ")),
+        };
         format!(
             "Medians of {}, each with its quartiles; all variants of a size were run in turn.\n\
-             Speed-up: threads over {}, lanes over the scalar path, within a round.\n\
-             Peak: of the process with one world, the making of its scene included.\n",
-            counted(self.settings.runs as u64, "run"),
-            counted(self.settings.threads[0] as u64, "thread"),
+             {speed_up}Peak: of the process with one world, the making of its scene included.\n",
+            counted(*runs as u64, "run"),
         )
     }
 
     fn times(&self) -> Table {
         let mut table = Table::default();
-        let time = self.unit();
         let heading = [self.unit(), "", "speed-up", "", "bytes/body", "peak MB"];
         table.row("", heading.map(str::to_owned));
         for rows in &self.points {
