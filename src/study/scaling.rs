@@ -38,6 +38,9 @@ pub use settings::{Settings, Variant, lanes_name};
 
 use measure::{Measured, Task};
 
+/// So many bodies, or fewer, are looked at beforehand.
+const SMALL: u64 = 1_000;
+
 /// The study of a scene. What it serialises to is all that its results depend
 /// on.
 #[derive(Clone, Debug, Serialize)]
@@ -48,6 +51,9 @@ pub struct Scaling {
     settings: Settings,
     #[serde(skip)]
     sizes: Vec<SceneFile>,
+    /// What the time of all is estimated from, and how many bodies it has.
+    #[serde(skip)]
+    small: (SceneFile, u64),
     #[serde(skip)]
     longest: f64,
 }
@@ -62,11 +68,18 @@ impl Scaling {
     pub fn new(file: &SceneFile, settings: &Settings) -> Result<Self, StudyError> {
         let settings = settings.checked(file.engine)?;
         let sizes = settings.bodies.iter().map(|&bodies| file.with_bodies(bodies));
+        let least = settings.bodies[0];
+        let small = match file.with_bodies(least.min(SMALL)) {
+            Ok(small) => (small, least.min(SMALL)),
+            // More single bodies than that.
+            Err(_) => (file.with_bodies(least)?, least),
+        };
         Ok(Self {
             subject: Subject::of(file),
             machine: Machine::here(),
             engine: file.engine,
             sizes: sizes.collect::<Result<_, _>>()?,
+            small,
             longest: match file.engine {
                 EngineKind::Stepped => f64::MAX,
                 EngineKind::EventDriven => file.run_duration()?,
@@ -92,7 +105,10 @@ impl Scaling {
         };
         // What is known already needs no estimate.
         let probe = match journal.len() < tasks().count() {
-            true => self.task(0).probed(self.settings.precisions[0])?,
+            true => {
+                let (file, bodies) = (&self.small.0, self.small.1);
+                Task { file, bodies, ..self.task(0) }.probed(self.settings.precisions[0])?
+            }
             false => measure::Probe::default(),
         };
         let points: Vec<Point<'_, Measured>> = tasks()

@@ -62,7 +62,7 @@ pub(super) struct Task<'a> {
     pub runs: usize,
 }
 
-/// What the smallest size takes, from which the others are estimated.
+/// What a small size takes, from which the others are estimated.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Probe {
     /// Making a scene, seconds a body.
@@ -84,7 +84,7 @@ impl Task<'_> {
         let (scene, build) = seconds(|| self.file.build::<T>());
         let mut world = World::new(scene?, self.variants[0].into())?;
         let bodies = world.plan().bodies as f64;
-        let (_, work) = self.warm_up(&mut world, 0)?;
+        let (_, work) = self.warm_up(&mut world, LEAST_STEPS)?;
         let work = if self.is_stepped() { work / bodies } else { work };
         Ok(Probe { build: build / bodies, work })
     }
