@@ -30,6 +30,7 @@ mod builder;
 mod builtin;
 mod check;
 mod check_bodies;
+mod dilated;
 mod error;
 mod figures;
 mod file;

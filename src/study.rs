@@ -12,7 +12,9 @@ mod folder;
 pub mod invariants;
 mod journal;
 mod machine;
+mod memory;
 mod point;
+pub mod scaling;
 mod subject;
 pub mod work_precision;
 

@@ -1,6 +1,7 @@
 //! `carom study`: the studies, from their arguments to their folders.
 
 mod error;
+mod scaling;
 mod watch;
 
 use std::path::{Path, PathBuf};
@@ -13,7 +14,6 @@ use serde::Serialize;
 use super::arguments::{SceneArguments, positive};
 use super::failure::Failure;
 use super::scene_argument::scene_file;
-use error::ErrorStudy;
 
 /// The studies.
 #[derive(Debug, Subcommand)]
@@ -32,14 +32,32 @@ Examples:
   carom study error gas.toml --precision f64 --dt 1e-2,1e-3,1e-4
   carom study error rough-gas --lanes scalar,4,8,16,auto --threads 1,2
   carom study error bouncing-ball --of energy     judged by the energy")]
-    Error(ErrorStudy),
+    Error(error::ErrorArguments),
+    /// Time and memory against the number of bodies, threads and lanes.
+    ///
+    /// The scene is made larger and smaller at the density that it has: the
+    /// counts of its groups are multiplied, and its places dilated about the
+    /// origin. What is compared is run in turn, so that another program on the
+    /// machine slows all of it; and all of it has to end in the same bits.
+    #[command(after_help = "\
+Examples:
+  carom study scaling rough-gas                    a thousand to 100,000 bodies
+  carom study scaling gas.toml --bodies 1000,1000000 --lanes auto
+                                                   two sizes, and no lanes
+  carom study scaling gas.toml --threads 1,2,4,8   what threads give
+  carom study scaling hard-sphere-fluid            time per collision, on the one
+                                                   thread that this engine has
+
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
+    Scaling(scaling::ScalingArguments),
 }
 
 impl Study {
     /// Makes the study.
     pub fn run(self) -> Result<(), Failure> {
         match self {
-            Self::Error(study) => study.run(),
+            Self::Error(arguments) => arguments.run(),
+            Self::Scaling(arguments) => arguments.run(),
         }
     }
 }

@@ -133,6 +133,14 @@ pub enum Problem {
         /// What is in the way, and what would be right.
         reason: String,
     },
+    /// A scene that cannot have another number of bodies.
+    #[error("cannot number {bodies}: {reason}")]
+    Unscalable {
+        /// How many were asked for.
+        bodies: u64,
+        /// What is in the way.
+        reason: String,
+    },
     /// A scene without bodies.
     #[error("the scene has no spheres; add at least one [[spheres]] entry")]
     Empty,

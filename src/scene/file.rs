@@ -84,7 +84,7 @@ pub struct SceneFile {
     pub seed: u64,
     path: String,
     text: Arc<str>,
-    raw: RawScene,
+    pub(super) raw: RawScene,
 }
 
 impl SceneFile {
@@ -194,7 +194,7 @@ impl SceneFile {
     }
 
     /// Which values came from where.
-    fn origin(&self) -> Origin {
+    pub(super) fn origin(&self) -> Origin {
         let mut origin = Origin::file(&self.path, Arc::clone(&self.text));
         let bits = |value: Option<f64>| value.map(f64::to_bits);
         if bits(self.duration) != bits(number(self.raw.duration)) {

@@ -68,7 +68,7 @@ pub(super) fn periodic_box<T: Real>(
 
 /// Cube root by Newton's method from above: the platform's own has other bits
 /// on every platform.
-fn cube_root(value: f64) -> f64 {
+pub(super) fn cube_root(value: f64) -> f64 {
     let mut root = value.max(1.0);
     loop {
         let next = root - (root - value / (root * root)) / 3.0;

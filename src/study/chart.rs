@@ -207,9 +207,14 @@ impl Ranged for Divided {
         if self.scale == Scale::Linear {
             return self.range.key_points(hint);
         }
-        // Powers of ten; between them 2 and 5 where there are few.
+        // Powers of ten; between them others where there are few.
         let every = (decades / 8.0).ceil().max(1.0);
-        let parts: &[f64] = if decades < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let parts: &[f64] = match decades {
+            d if d < 0.3 => &[1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0],
+            d if d < 1.0 => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0],
+            d if d < 3.0 => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
+        };
         let first = (self.span.start / every).floor() * every;
         let powers = (0..).map(|k| first + every * f64::from(k)).take_while(|p| *p < self.span.end);
         let points = powers.flat_map(|power| parts.iter().map(move |part| power + part.log10()));

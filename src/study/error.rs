@@ -19,12 +19,6 @@ pub enum StudyError {
     /// A mistake in what the study was asked for.
     #[error("{0}")]
     Asked(String),
-    /// Lanes or threads have changed a result.
-    #[error(
-        "{0} gives other bits than the fastest lanes do: that is a defect of carom; please report \
-         it with this scene"
-    )]
-    DifferentBits(String),
     /// A file of the study's folder.
     #[error("{}: {source}", path.display())]
     File {
@@ -40,6 +34,9 @@ pub enum StudyError {
         .0.display()
     )]
     AnotherStudy(PathBuf),
+    /// Lanes or threads, which change no bit of a result, have changed some.
+    #[error("{0}: this is a mistake in carom, please report it with the scene and the machine")]
+    DifferentBits(String),
     /// A result could not be written to its end.
     #[error(transparent)]
     Output(#[from] OutputError),

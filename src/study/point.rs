@@ -27,7 +27,9 @@ pub struct Point<'a, R> {
 /// Whom a study tells how far it is.
 pub trait Watch: Sync {
     /// This is done before the points are begun.
-    fn says(&self, what: &str);
+    fn says(&self, what: &str) {
+        let _ = what;
+    }
 
     /// So many points are ahead, of so many in all, which should take so many
     /// seconds.
@@ -39,7 +41,6 @@ pub trait Watch: Sync {
 
 /// Nobody watches.
 impl Watch for () {
-    fn says(&self, _: &str) {}
     fn begins(&self, _: usize, _: usize, _: f64) {}
     fn is_done(&self, _: &str, _: f64) {}
 }

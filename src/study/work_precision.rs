@@ -122,7 +122,7 @@ impl WorkPrecision {
     /// # Errors
     /// If an engine cannot run the scene to its end, if lanes or threads change a
     /// bit, or if the journal cannot be written.
-    pub fn run(
+    pub fn measure(
         &self,
         journal: &Journal,
         quantity: Quantity,

@@ -2,6 +2,7 @@
 //! mistakes.
 
 mod error;
+mod scaling;
 
 use super::{BOX, FLUID, Folder};
 
@@ -10,7 +11,7 @@ fn unknown_studies_and_scenes_are_named() {
     let folder = Folder::with(BOX);
     let said = folder.says("study");
     assert_eq!(said.status, Some(2));
-    for study in ["error"] {
+    for study in ["error", "scaling"] {
         assert!(said.errors.contains(study), "{study}");
     }
     let message = folder.says("study precisoin scene.toml").fails_with(2);

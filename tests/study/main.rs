@@ -1,5 +1,6 @@
 //! The studies: orders, laws and figures that they have to find.
 
+mod scaling;
 mod work_precision;
 
 use carom::scene::SceneFile;

@@ -73,7 +73,7 @@ fn quick() -> Asked {
 
 fn study(file: &SceneFile, asked: &Asked) -> Report {
     let study = WorkPrecision::new(file, asked).unwrap();
-    study.run(&Journal::unwritten(), Quantity::Position, &()).unwrap()
+    study.measure(&Journal::unwritten(), Quantity::Position, &()).unwrap()
 }
 
 /// What was found of a quantity in `f64`, by the family's name.
@@ -166,7 +166,7 @@ fn past_predictability_there_is_no_figure() {
     // Of the energy there is.
     let journal = Journal::unwritten();
     let study = WorkPrecision::new(&file, &asked).unwrap();
-    let report = study.run(&journal, Quantity::Energy, &()).unwrap();
+    let report = study.measure(&journal, Quantity::Energy, &()).unwrap();
     assert_eq!(report.time, 20.0);
     assert!(report.front.iter().all(|best| best.error < 1e-5));
 }
@@ -179,7 +179,7 @@ fn goes_on_where_it_was() {
     let temporary = tempfile::tempdir().unwrap();
     let folder = Folder::open(temporary.path()).unwrap();
     let journal = folder.journal(study.sweep()).unwrap();
-    let first = study.run(&journal, Quantity::Position, &()).unwrap();
+    let first = study.measure(&journal, Quantity::Position, &()).unwrap();
     drop(journal);
 
     // Interrupted in the middle of a line.
@@ -189,7 +189,7 @@ fn goes_on_where_it_was() {
     let journal = folder.journal(study.sweep()).unwrap();
     let points = journal.len();
     assert!(points > 0 && points < study.sweep().methods.len());
-    let second = study.run(&journal, Quantity::Position, &()).unwrap();
+    let second = study.measure(&journal, Quantity::Position, &()).unwrap();
     for (k, (first, second)) in first.outcomes.iter().zip(&second.outcomes).enumerate() {
         assert_eq!((&first.moments, &first.state_hash), (&second.moments, &second.state_hash));
         // What was there is not measured again.

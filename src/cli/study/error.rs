@@ -15,7 +15,7 @@ use crate::cli::print;
 
 /// What `carom study error` takes.
 #[derive(Args, Debug)]
-pub struct ErrorStudy {
+pub struct ErrorArguments {
     #[command(flatten)]
     scene: StudiedScene,
 
@@ -84,7 +84,7 @@ const QUANTITIES: [(&str, Quantity); 6] = [
     ("angular-momentum", Quantity::AngularMomentum),
 ];
 
-impl ErrorStudy {
+impl ErrorArguments {
     /// Makes the study, and prints its report.
     pub fn run(self) -> Result<(), Failure> {
         let file = self.scene.file()?;
@@ -104,7 +104,7 @@ impl ErrorStudy {
         let name = format!("study-error-{}", file.name);
         let (folder, journal) =
             self.folder.open(&name, &("error", Subject::of(&file), study.sweep()))?;
-        let report = study.run(&journal, self.of, &Teller::new(&folder))?;
+        let report = study.measure(&journal, self.of, &Teller::new(&folder))?;
         report.write(&folder)?;
         print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))
     }

@@ -114,7 +114,7 @@ fn timed_run<T: Real>(
     let world = world?;
     let Execution { lanes, threads } = execution;
     if state_hash(&world.bodies()) != hash {
-        let what = format!("{method} in lanes {lanes} on {threads} threads");
+        let what = format!("{method}: other bits in lanes {lanes} on {threads} threads");
         return Err(StudyError::DifferentBits(what));
     }
     Ok(seconds)

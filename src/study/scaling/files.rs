@@ -1,0 +1,176 @@
+//! The files of the report: tables and pictures.
+
+use serde::Serialize;
+
+use super::{Report, Row, lanes_name, precision_name};
+use crate::engine::EngineKind;
+use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
+use crate::study::{Folder, StudyError};
+
+/// A row of `scaling.csv`.
+#[derive(Serialize)]
+struct Line<'a> {
+    precision: &'a str,
+    bodies: u64,
+    threads: usize,
+    lanes: &'a str,
+    runs: usize,
+    work_per_run: u64,
+    nanoseconds: f64,
+    lower_quartile: f64,
+    upper_quartile: f64,
+    bytes_per_body: f64,
+    peak_resident_bytes: Option<u64>,
+    state_hash: &'a str,
+}
+
+impl Report {
+    /// Writes all of it into a folder: `report.txt`, `scene.toml`,
+    /// `scaling.csv` (nanoseconds per body and step, or per collision),
+    /// `scaling.json`, and the pictures `time`, `memory` and, where lanes were
+    /// compared, `lanes`, each as SVG and PNG.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
+        folder.write("report.txt", self.to_string().as_bytes())?;
+        self.subject.write(folder)?;
+        let lines: Vec<Line<'_>> = self.points.iter().flatten().map(|row| self.line(row)).collect();
+        folder.write_csv("scaling.csv", &lines)?;
+        folder.write_json("scaling.json", self)?;
+        Picture { charts: vec![self.time_chart()] }.write(folder, "time")?;
+        Picture { charts: vec![self.memory_chart()] }.write(folder, "memory")?;
+        if self.settings.lanes.len() > 1 {
+            Picture { charts: vec![self.lanes_chart()] }.write(folder, "lanes")?;
+        }
+        Ok(())
+    }
+
+    fn line<'a>(&self, row: &'a Row) -> Line<'a> {
+        let time = self.nanoseconds(row);
+        Line {
+            precision: &row.precision,
+            bodies: row.bodies,
+            threads: row.threads,
+            lanes: &row.lanes,
+            runs: row.timing.runs.len(),
+            work_per_run: row.work,
+            nanoseconds: time.median,
+            lower_quartile: time.lower_quartile,
+            upper_quartile: time.upper_quartile,
+            bytes_per_body: row.bytes as f64 / row.bodies as f64,
+            peak_resident_bytes: row.peak_resident,
+            state_hash: &row.state_hash,
+        }
+    }
+
+    fn time_axis(&self, scale: Scale) -> Axis {
+        match self.engine {
+            EngineKind::Stepped => Axis::new("time per body and step, ns", scale),
+            EngineKind::EventDriven => Axis::new("time per collision, ns", scale),
+        }
+    }
+
+    /// Time against size, by precision and threads.
+    fn time_chart(&self) -> Chart {
+        let mut series = Vec::new();
+        for &precision in &self.settings.precisions {
+            for &threads in &self.settings.threads {
+                let name = precision_name(precision);
+                let rows = self.sweep(name, threads);
+                let plural = if threads == 1 { "" } else { "s" };
+                series.push(Series {
+                    name: format!("{name}, {threads} thread{plural}"),
+                    color: Some(series.len()),
+                    points: rows
+                        .map(|row| (row.bodies as f64, self.nanoseconds(row).median))
+                        .collect(),
+                    ..Series::default()
+                });
+            }
+        }
+        Chart {
+            title: format!("{}: time", self.subject.name),
+            x: Axis::new("bodies", Scale::Logarithmic),
+            y: self.time_axis(Scale::Logarithmic),
+            series,
+        }
+    }
+
+    /// Memory against size: what the engine holds, and the peak of the process.
+    fn memory_chart(&self) -> Chart {
+        let mut series: Vec<Series> = Vec::new();
+        for (color, &precision) in self.settings.precisions.iter().enumerate() {
+            let name = precision_name(precision);
+            let rows: Vec<&Row> = self.sweep(name, self.settings.threads[0]).collect();
+            let per_body =
+                |row: &Row, bytes: u64| (row.bodies as f64, bytes as f64 / row.bodies as f64);
+            let peaks = rows.iter().filter_map(|row| Some(per_body(row, row.peak_resident?)));
+            let of = |what: &str, mark, points| Series {
+                name: format!("{name}, {what}"),
+                color: Some(color),
+                mark,
+                points,
+            };
+            let held = rows.iter().map(|row| per_body(row, row.bytes)).collect();
+            series.push(of("held by the engine", Mark::LineAndDiscs, held));
+            series.push(of("peak of the process", Mark::Dashes, peaks.collect()));
+        }
+        series.retain(|series| !series.points.is_empty());
+        Chart {
+            title: format!("{}: memory", self.subject.name),
+            x: Axis::new("bodies", Scale::Logarithmic),
+            y: Axis::new("bytes per body", Scale::Logarithmic),
+            series,
+        }
+    }
+
+    /// Time against lanes at the size where they were compared, and with the
+    /// widths that the engine chooses itself.
+    fn lanes_chart(&self) -> Chart {
+        let threads = self.settings.threads[0];
+        let mut series = Vec::new();
+        for (color, &precision) in self.settings.precisions.iter().enumerate() {
+            let name = precision_name(precision);
+            let Some(rows) = self.points.iter().find(|rows| {
+                rows.iter().any(|row| {
+                    row.precision == name && row.lanes != lanes_name(self.settings.lanes[0])
+                })
+            }) else {
+                continue;
+            };
+            let of_one_thread = rows.iter().filter(|row| row.threads == threads);
+            let mut widths: Vec<(f64, f64)> = Vec::new();
+            let mut auto = None;
+            for row in of_one_thread {
+                let time = self.nanoseconds(row).median;
+                match row.lanes.as_str() {
+                    "auto" => auto = Some(time),
+                    "scalar" => widths.push((1.0, time)),
+                    width => widths.extend(width.parse().ok().map(|width: f64| (width, time))),
+                }
+            }
+            widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+            if let (Some(auto), Some(first), Some(last)) = (auto, widths.first(), widths.last()) {
+                series.push(Series {
+                    name: format!("{name}, auto"),
+                    color: Some(color),
+                    mark: Mark::Dashes,
+                    points: vec![(first.0, auto), (last.0, auto)],
+                });
+            }
+            series.push(Series {
+                name: name.to_owned(),
+                color: Some(color),
+                points: widths,
+                ..Series::default()
+            });
+        }
+        Chart {
+            title: format!("{}: lanes", self.subject.name),
+            x: Axis::new("lanes", Scale::Logarithmic),
+            y: self.time_axis(Scale::Linear),
+            series,
+        }
+    }
+}
