@@ -101,7 +101,7 @@ fn integrators_have_their_orders() {
         }
     }
     // The error of semi-implicit Euler is ½ |a| t Δt.
-    let (method, outcome) = report.sweep.methods.iter().zip(&report.outcomes).last().unwrap();
+    let (method, outcome) = report.sweep.methods.iter().zip(&report.outcomes).next_back().unwrap();
     assert_eq!(method.precision, Precision::F64);
     assert!(outcome.moments.iter().all(|moment| moment.deviation.unwrap().position < 1e-11));
     let (method, outcome) = (report.sweep.methods.iter().zip(&report.outcomes))
