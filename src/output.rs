@@ -8,7 +8,7 @@ mod file;
 mod report;
 mod state;
 mod summary;
-mod table;
+pub(crate) mod table;
 
 pub use events::{EVENT_COLUMNS, EventWriter};
 pub use file::{Destination, OutputError, OutputFile};

@@ -12,6 +12,7 @@ pub mod invariants;
 mod journal;
 mod machine;
 mod point;
+pub mod precision;
 mod subject;
 
 pub use error::StudyError;

@@ -52,12 +52,19 @@ impl DoubleDouble {
 }
 
 macro_rules! operations {
-    ($($trait:ident::$method:ident = $apply:expr),*) => {$(
+    ($($trait:ident::$method:ident = $apply:expr, $plain:expr),*) => {$(
         impl $trait for DoubleDouble {
             type Output = Self;
 
             fn $method(self, other: Self) -> Self {
                 let apply: fn(fx128, fx128) -> fx128 = $apply;
+                let plain: fn(f64, f64) -> f64 = $plain;
+                let plain = plain(self.high(), other.high());
+                // What infinities leave over is no number: there the first
+                // parts say it all, as 1/0 and 1/∞ in `f64`.
+                if !plain.is_finite() || !other.high().is_finite() {
+                    return Self::new(plain, 0.0);
+                }
                 Self(apply(self.0, other.0))
             }
         }
@@ -68,10 +75,15 @@ macro_rules! operations {
 // of almost equal numbers.
 operations!(
     Add::add = fx128::add_accurate,
+    |a, b| a + b,
     Sub::sub = fx128::sub_accurate,
+    |a, b| a - b,
     Mul::mul = fx128::mul,
+    |a, b| a * b,
     Div::div = fx128::div,
-    Rem::rem = |a, b| a % b
+    |a, b| a / b,
+    Rem::rem = |a, b| a % b,
+    |a, b| a % b
 );
 
 impl Neg for DoubleDouble {
@@ -158,7 +170,10 @@ impl Lane for DoubleDouble {
     }
 
     fn sqrt(self) -> Self {
-        if self == Self::ZERO { self } else { Self(self.0.sqrt()) }
+        match self.high() {
+            high if high > 0.0 && high < f64::INFINITY => Self(self.0.sqrt()),
+            high => Self::new(high.sqrt(), 0.0),
+        }
     }
 
     fn abs(self) -> Self {
