@@ -14,10 +14,13 @@ use crate::lane::Lane;
 /// The unevaluated sum of two `f64`, the second at most half a unit in the last
 /// place of the first: 105 binary digits in the range of `f64` (Dekker 1971).
 ///
-/// `+ − × ÷ √` are right to about 10⁻³² of the result, sine and cosine to 10⁻³¹:
-/// enough to measure the error of `f64` by, at some forty times its cost. All of
+/// `+ − × ÷ √` are right to about 10⁻³² of the result, sine and cosine to
+/// 1.3·10⁻³² absolutely (the worst of 349 hard and random arguments up to 10¹⁴, in
+/// `tests/study`): enough to measure the error of `f64` by, at some forty times
+/// its cost. All of
 /// the crate's formulas take it, one at a time: its packs are lanes of one.
-/// Numbers below 10⁻²⁹⁰ lose digits, as their second parts leave the range.
+/// Numbers below 10⁻²⁹⁰ lose digits, as their second parts leave the range, and
+/// square roots above 10³⁰⁰ are none. Infinity and what comes of it is as in `f64`.
 ///
 /// ```
 /// use carom::DoubleDouble;
@@ -194,6 +197,12 @@ impl Lane for DoubleDouble {
 
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
+    }
+
+    // The sum with a great number, which rounds other precisions, is exact here:
+    // without this, bodies in a periodic box were parts of boxes away.
+    fn nearest_small_whole(self) -> Self {
+        self.nearest_whole()
     }
 
     // A great number added and taken off again leaves the fraction in the low

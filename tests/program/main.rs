@@ -4,6 +4,7 @@ mod bad_input;
 mod event_driven;
 mod files;
 mod streams;
+mod study;
 mod summary;
 
 use std::ffi::OsStr;

@@ -73,7 +73,8 @@ fn figures(side_by_side: &SideBySide) -> Vec<Figure<'_>> {
     let bodies = side_by_side.bodies;
     let ends = side_by_side.truth.samples.last().map_or(0, |sample| sample.ends);
     let mut figures: Vec<Figure<'_>> = Vec::new();
-    if side_by_side.is_periodic && bodies > 1 {
+    let has_met = side_by_side.truth.samples.last().is_some_and(|sample| sample.virial > 0.0);
+    if side_by_side.is_periodic && bodies > 1 && has_met {
         figures.push((
             "compressibility",
             Box::new(move |samples| {

@@ -83,8 +83,8 @@ impl Threshold {
 impl Growth {
     /// Of distances against collisions per body: of those from the first
     /// collision of most bodies on, before which there are only roundings, up to
-    /// the threshold, behind which collisions are missed. `None` for fewer than
-    /// four.
+    /// the threshold. `None` for fewer than four. From the first collision with
+    /// another partner on the distance leaps; the points must end before.
     #[must_use]
     pub fn of(points: &[(f64, f64)], threshold: f64) -> Option<Self> {
         let end = points.iter().position(|&(_, distance)| distance > threshold);
@@ -148,8 +148,12 @@ impl Divergence {
                 (Place { time: sample.time, collisions_per_body }, distance)
             })
             .collect();
-        let plain: Vec<(f64, f64)> =
-            points.iter().map(|(place, distance)| (place.collisions_per_body, *distance)).collect();
+        let partner = comparison.departures.partner;
+        let plain: Vec<(f64, f64)> = points
+            .iter()
+            .map(|(place, distance)| (place.collisions_per_body, *distance))
+            .take_while(|point| partner.is_none_or(|other| point.0 < other.collisions_per_body))
+            .collect();
         let growth = Growth::of(&plain, threshold);
         let lost = crossing(&points, threshold);
         let would_be_lost = match (lost, growth, points.last()) {

@@ -21,6 +21,9 @@ const APART: f64 = 1.5;
 /// Over how much of the way an exponent is fitted.
 const SPAN: f64 = 64.0;
 
+/// Exponents of different runs differ by more.
+const SAME_RUNS: f64 = 1e-6;
+
 /// The law by which a drift grows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -135,7 +138,8 @@ impl Drift {
             power(&points).map_or(f64::NAN, |power| power.value)
         };
         let exponent = jackknife(&tracks, slope);
-        let is_told = tracks.len() > 1 && exponent.value.is_finite() && exponent.error.is_finite();
+        // Runs that are all the same have no error, and tell no more than one.
+        let is_told = exponent.value.is_finite() && exponent.error > SAME_RUNS;
         let exponent = is_told.then_some(exponent);
         let law = match points.iter().all(|point| point.1 < epsilon) {
             true => Law::BelowEpsilon,

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::averages::{Average, averages};
 use super::divergence::{Divergence, Place, Threshold, reference_lost};
-use super::drift::{Drift, Law, invariants};
+use super::drift::{Drift, invariants};
 use super::run::Track;
 use super::side_by_side::SideBySide;
 use super::{PRECISIONS, verdict};
@@ -15,6 +15,9 @@ use crate::output::table::{Table, counted, rounded};
 use crate::real::Real;
 use crate::study::fit::Estimate;
 use crate::study::{Machine, Subject};
+
+/// Columns of the terminal.
+const WIDTH: usize = 100;
 
 /// How many points in time the terminal is shown.
 const SHOWN: usize = 12;
@@ -177,7 +180,7 @@ impl fmt::Display for PrecisionReport {
         self.show_averages(f)?;
         writeln!(f)?;
         for sentence in &self.verdict {
-            writeln!(f, "{sentence}")?;
+            write_wrapped(f, sentence)?;
         }
         Ok(())
     }
@@ -251,10 +254,7 @@ impl PrecisionReport {
         let mut table = Table::of_texts();
         table.row("", ["", "at the end", "in ε", "exponent of n", "law"].map(str::to_owned));
         for drift in &self.drifts {
-            let exponent = match (drift.exponent, drift.law) {
-                (_, Law::BelowEpsilon) | (None, _) => "-".to_owned(),
-                (Some(exponent), _) => with_error(exponent),
-            };
+            let exponent = drift.exponent.map_or("-".to_owned(), with_error);
             let cells = [
                 drift.precision.to_owned(),
                 format!("{:.1e}", drift.at_end),
@@ -302,6 +302,32 @@ pub(super) fn short(value: f64) -> String {
     if value < 0.0 { format!("-{}", rounded(-value)) } else { rounded(value) }
 }
 
+/// A figure that may be extrapolated far.
+pub(super) fn far(value: f64) -> String {
+    if value < 1e6 { short(value) } else { format!("{value:.0e}") }
+}
+
+/// Writes a sentence in lines of the terminal's width.
+fn write_wrapped(f: &mut fmt::Formatter<'_>, sentence: &str) -> fmt::Result {
+    let mut left = WIDTH;
+    for (number, word) in sentence.split(' ').enumerate() {
+        let len = word.chars().count() + 1;
+        match (number, left.checked_sub(len)) {
+            (0, _) => left = WIDTH.saturating_sub(len - 1),
+            (_, Some(rest)) => {
+                f.write_str(" ")?;
+                left = rest;
+            }
+            (_, None) => {
+                f.write_str("\n  ")?;
+                left = WIDTH.saturating_sub(len + 1);
+            }
+        }
+        f.write_str(word)?;
+    }
+    writeln!(f)
+}
+
 fn shown(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), short)
 }
@@ -311,7 +337,7 @@ pub(super) fn with_error(Estimate { value, error }: Estimate) -> String {
     if error <= 0.0 || !error.is_finite() {
         return format!("{value:.3}");
     }
-    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 12.0) as usize;
+    let decimals = (1.0 - error.log10().floor()).clamp(0.0, 6.0) as usize;
     format!("{value:.decimals$} ± {error:.decimals$}")
 }
 
@@ -328,7 +354,7 @@ fn power(divergence: &Divergence) -> String {
 fn lost(divergence: &Divergence, figure: fn(Place) -> f64) -> String {
     match (divergence.lost, divergence.would_be_lost) {
         (Some(place), _) => short(figure(place)),
-        (None, Some(place)) => format!("about {}, by the law", short(figure(place))),
+        (None, Some(place)) => format!("{} by the law", far(figure(place))),
         (None, None) => "not seen".to_owned(),
     }
 }

@@ -3,11 +3,12 @@
 use super::PRECISIONS;
 use super::divergence::Divergence;
 use super::drift::Law;
-use super::report::{PrecisionReport, short};
+use super::report::{PrecisionReport, far, short};
 use crate::engine::EngineKind;
 
-/// From so many standard errors on an average is another one.
-const DIFFERENT: f64 = 3.0;
+/// From so many standard errors on an average is another one: the errors of two
+/// runs, from a few blocks each, which do not know them well.
+const DIFFERENT: f64 = 6.0;
 
 /// What of a conserved average may be lost, of the average.
 const KEPT: f64 = 1e-3;
@@ -55,7 +56,7 @@ fn trajectories(report: &PrecisionReport) -> String {
             ),
             Divergence { would_be_lost: Some(place), .. } => format!(
                 "{precision} to the end, and up to about t = {} by its growth",
-                short(place.time)
+                far(place.time)
             ),
             _ => format!("{precision} to the end"),
         }
@@ -101,7 +102,7 @@ fn invariants(report: &PrecisionReport) -> Option<String> {
         .collect();
     let grows = match linear.as_slice() {
         [] => String::new(),
-        linear => format!(" {} grows as n: roundings have a preferred side.", linear.join(", ")),
+        linear => format!(" As n grows: {}; roundings have a preferred side.", linear.join(", ")),
     };
     Some(format!(
         "Invariants: f32 keeps them to {:.0e} ({}), f64 to {:.0e} ({}).{grows}",

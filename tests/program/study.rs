@@ -1,0 +1,3 @@
+//! The studies as the program makes them.
+
+mod precision;
