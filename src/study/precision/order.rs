@@ -69,6 +69,10 @@ impl Seen {
     }
 }
 
+/// What only one of the two runs has had so far of a body's collisions: what it
+/// should meet, and what it has met.
+type Ahead = (VecDeque<(Met, Departure)>, VecDeque<Met>);
+
 /// Compares the collisions of a run with those that should be.
 #[derive(Debug)]
 pub struct Comparer {
@@ -79,8 +83,7 @@ pub struct Comparer {
     /// What only one of the two has had so far.
     ahead: VecDeque<(Seen, Departure)>,
     ahead_here: VecDeque<Seen>,
-    /// The same for each body.
-    of_each: Vec<(VecDeque<(Met, Departure)>, VecDeque<Met>)>,
+    of_each: Vec<Ahead>,
 }
 
 impl Comparer {

@@ -29,15 +29,15 @@ pub(super) fn verdict(report: &PrecisionReport) -> Vec<String> {
         });
     }
     said.push(trajectories(report));
-    if let Some(lost) = report.reference_lost {
-        if lost.collisions_per_body < report.end.collisions_per_body {
-            said.push(format!(
-                "Reference: even the double-double is lost from about time {} ({} collisions per \
+    if let Some(lost) = report.reference_lost
+        && lost.collisions_per_body < report.end.collisions_per_body
+    {
+        said.push(format!(
+            "Reference: even the double-double is lost from about time {} ({} collisions per \
                  body) on.",
-                short(lost.time),
-                short(lost.collisions_per_body)
-            ));
-        }
+            short(lost.time),
+            short(lost.collisions_per_body)
+        ));
     }
     said.extend(averages(report));
     said.extend(invariants(report));
