@@ -106,9 +106,23 @@ impl Comparer {
         self.found.partner.is_some()
     }
 
-    /// What was found so far.
+    /// What was found. A collision from before the time `before` that the other
+    /// run has not had by the end is missing there, and no longer only late.
     #[must_use]
-    pub fn found(&self) -> Departures {
+    pub fn finish(mut self, before: f64) -> Departures {
+        let is_missing = |place: &&Departure| place.time < before;
+        let missing = self.ahead.front().map(|(_, place)| place).filter(is_missing).copied();
+        let surplus = self.ahead_here.front().map(|seen| Departure {
+            collision: self.counted.0 + 1,
+            time: seen.time,
+            collisions_per_body: self.counted.1 as f64 / self.bodies as f64,
+        });
+        let ended = missing.or(surplus.filter(|place| is_missing(&place)));
+        self.found.order = self.found.order.or(ended);
+        let of_each = self.of_each.iter().filter_map(|(should, _)| should.front());
+        let missing = of_each.map(|(_, place)| place).filter(is_missing);
+        let first = missing.min_by(|a, b| a.time.total_cmp(&b.time)).copied();
+        self.found.partner = self.found.partner.or(first).or(ended);
         self.found
     }
 
@@ -168,6 +182,48 @@ impl Comparer {
                 should.pop_front();
                 is.pop_front();
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pair(time: f64, body: u32, other: u32) -> Seen {
+        Seen { time, body, met: Met::Body(other) }
+    }
+
+    #[test]
+    fn order_and_partners_differ_apart() {
+        let should = [pair(1.0, 0, 1), pair(1.1, 2, 3), pair(2.0, 0, 2), pair(3.0, 1, 3)];
+        // The first two interchanged, which concerns nobody; then others meet.
+        let is = [should[1], should[0], should[2], pair(3.0, 1, 2)];
+        let mut comparer = Comparer::new(4);
+        comparer.compare(&should[..3], &is[..1]);
+        comparer.compare(&should[3..], &is[1..]);
+        let found = comparer.finish(0.0);
+        let at = |place: Option<Departure>| place.map(|place| (place.collision, place.time));
+        assert_eq!(at(found.order), Some((1, 1.0)));
+        assert_eq!(at(found.partner), Some((4, 3.0)));
+        assert_eq!(found.order.map(|place| place.collisions_per_body), Some(0.5));
+    }
+
+    #[test]
+    fn late_is_not_missing() {
+        let all = [pair(1.0, 0, 1), pair(2.0, 0, 2), pair(3.0, 0, 1)];
+        for (should, is, before, missing) in [
+            (&all[..], &all[..], 3.5, None),
+            (&all[..], &all[..2], 2.5, None),
+            (&all[..], &all[..2], 3.5, Some(3)),
+            (&all[..2], &all[..], 2.5, None),
+            (&all[..2], &all[..], 3.5, Some(3)),
+        ] {
+            let mut comparer = Comparer::new(3);
+            comparer.compare(should, is);
+            let found = comparer.finish(before);
+            assert_eq!(found.order.map(|place| place.collision), missing);
+            assert_eq!(found.partner.map(|place| place.collision), missing);
         }
     }
 }

@@ -81,7 +81,10 @@ impl<T: Real> Companion<T> {
     }
 
     fn finish(self) -> Comparison {
-        Comparison { departures: self.comparer.found(), ..self.comparison }
+        // Who stopped had the rest of its collisions still to come.
+        let seen = self.comparison.track.samples.iter().rev().nth(1);
+        let before = seen.map_or(0.0, |sample| sample.time);
+        Comparison { departures: self.comparer.finish(before), ..self.comparison }
     }
 }
 
