@@ -14,6 +14,7 @@ mod journal;
 mod machine;
 mod memory;
 mod point;
+pub mod precision;
 pub mod scaling;
 mod subject;
 pub mod work_precision;

@@ -1,6 +1,7 @@
 //! `carom study`: the studies, from their arguments to their folders.
 
 mod error;
+mod precision;
 mod scaling;
 mod watch;
 
@@ -50,6 +51,20 @@ Examples:
 
 Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
     Scaling(scaling::ScalingArguments),
+    /// Find out what precision a scene needs: f32 and f64 beside double-double.
+    ///
+    /// How trajectories diverge and when they are lost, the first collision out
+    /// of order, how invariants drift, and what averages lose.
+    #[command(after_help = "\
+Examples:
+  carom study precision gas.toml                           by the scene's own engine
+  carom study precision hard-sphere-fluid --duration 2     for a shorter time
+  carom study precision mixture --engine event-driven      by the other engine
+  carom study precision gas.toml --runs 32                 sharper laws of drift
+
+Writes precision.csv, precision.json, report.txt, divergence.svg and drift.svg,
+both also as .png, and scene.toml into its folder.")]
+    Precision(precision::PrecisionArguments),
 }
 
 impl Study {
@@ -58,6 +73,7 @@ impl Study {
         match self {
             Self::Error(arguments) => arguments.run(),
             Self::Scaling(arguments) => arguments.run(),
+            Self::Precision(arguments) => arguments.run(),
         }
     }
 }

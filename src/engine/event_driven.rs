@@ -306,9 +306,9 @@ impl<T: Real> EventDriven<T> {
         self.after(time - self.time)?;
         let last = self.collisions.total().saturating_add(events);
         loop {
-            let ahead = time - self.origin.value();
-            let ends_here = ahead < self.period.to_f64();
-            let limit = if ends_here { T::from_f64(ahead) } else { self.period };
+            let ahead = self.in_period(time);
+            let ends_here = ahead < self.period;
+            let limit = if ends_here { ahead } else { self.period };
             while self.collisions.total() < last && !self.is_too_fast {
                 let Some(turn) = self.next_turn() else { break };
                 if turn.time > limit {

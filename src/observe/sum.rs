@@ -36,6 +36,13 @@ impl CompensatedSum {
         // A sum that has left the numbers has no remainder to give back.
         if self.sum.is_finite() { self.sum + self.rounded_off } else { self.sum }
     }
+
+    /// What the value leaves out of the sum, as far as it is known.
+    #[inline]
+    #[must_use]
+    pub fn remainder(&self) -> f64 {
+        if self.sum.is_finite() { (self.sum - self.value()) + self.rounded_off } else { 0.0 }
+    }
 }
 
 impl FromIterator<f64> for CompensatedSum {

@@ -14,10 +14,13 @@ use crate::lane::Lane;
 /// The unevaluated sum of two `f64`, the second at most half a unit in the last
 /// place of the first: 105 binary digits in the range of `f64` (Dekker 1971).
 ///
-/// `+ − × ÷ √` are right to about 10⁻³² of the result, sine and cosine to 10⁻³¹:
-/// enough to measure the error of `f64` by, at some forty times its cost. All of
+/// `+ − × ÷ √` are right to about 10⁻³² of the result, sine and cosine to
+/// 1.3·10⁻³² absolutely (the worst of 349 hard and random arguments up to 10¹⁴, in
+/// `tests/study`): enough to measure the error of `f64` by, at some forty times
+/// its cost. All of
 /// the crate's formulas take it, one at a time: its packs are lanes of one.
-/// Numbers below 10⁻²⁹⁰ lose digits, as their second parts leave the range.
+/// Numbers below 10⁻²⁹⁰ lose digits, as their second parts leave the range, and
+/// square roots above 10³⁰⁰ are none. Infinity and what comes of it is as in `f64`.
 ///
 /// ```
 /// use carom::DoubleDouble;
@@ -52,12 +55,19 @@ impl DoubleDouble {
 }
 
 macro_rules! operations {
-    ($($trait:ident::$method:ident = $apply:expr),*) => {$(
+    ($($trait:ident::$method:ident = $apply:expr, $plain:expr),*) => {$(
         impl $trait for DoubleDouble {
             type Output = Self;
 
             fn $method(self, other: Self) -> Self {
                 let apply: fn(fx128, fx128) -> fx128 = $apply;
+                let plain: fn(f64, f64) -> f64 = $plain;
+                let plain = plain(self.high(), other.high());
+                // What infinities leave over is no number: there the first
+                // parts say it all, as 1/0 and 1/∞ in `f64`.
+                if !plain.is_finite() || !other.high().is_finite() {
+                    return Self::new(plain, 0.0);
+                }
                 Self(apply(self.0, other.0))
             }
         }
@@ -68,10 +78,15 @@ macro_rules! operations {
 // of almost equal numbers.
 operations!(
     Add::add = fx128::add_accurate,
+    |a, b| a + b,
     Sub::sub = fx128::sub_accurate,
+    |a, b| a - b,
     Mul::mul = fx128::mul,
+    |a, b| a * b,
     Div::div = fx128::div,
-    Rem::rem = |a, b| a % b
+    |a, b| a / b,
+    Rem::rem = |a, b| a % b,
+    |a, b| a % b
 );
 
 impl Neg for DoubleDouble {
@@ -158,7 +173,10 @@ impl Lane for DoubleDouble {
     }
 
     fn sqrt(self) -> Self {
-        if self == Self::ZERO { self } else { Self(self.0.sqrt()) }
+        match self.high() {
+            high if high > 0.0 && high < f64::INFINITY => Self(self.0.sqrt()),
+            high => Self::new(high.sqrt(), 0.0),
+        }
     }
 
     fn abs(self) -> Self {
@@ -181,6 +199,8 @@ impl Lane for DoubleDouble {
         if mask { yes } else { no }
     }
 
+    // The sum with a great number, which rounds other precisions, is exact here:
+    // without this, bodies in a periodic box were parts of boxes away.
     fn nearest_small_whole(self) -> Self {
         self.nearest_whole()
     }

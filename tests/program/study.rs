@@ -2,6 +2,7 @@
 //! mistakes.
 
 mod error;
+mod precision;
 mod scaling;
 
 use super::{BOX, FLUID, Folder};
@@ -11,7 +12,7 @@ fn unknown_studies_and_scenes_are_named() {
     let folder = Folder::with(BOX);
     let said = folder.says("study");
     assert_eq!(said.status, Some(2));
-    for study in ["error", "scaling"] {
+    for study in ["error", "precision", "scaling"] {
         assert!(said.errors.contains(study), "{study}");
     }
     let message = folder.says("study precisoin scene.toml").fails_with(2);

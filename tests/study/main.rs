@@ -1,5 +1,8 @@
-//! The studies: orders, laws and figures that they have to find.
+//! The studies: orders, laws and figures that they have to find, and the
+//! double-double that they take for the truth.
 
+mod double_double;
+mod precision;
 mod scaling;
 mod work_precision;
 

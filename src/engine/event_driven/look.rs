@@ -72,7 +72,7 @@ impl<T: Real> EventDriven<T> {
 
     /// Now, since the period's start.
     pub(super) fn now(&self) -> T {
-        T::from_f64(self.time - self.origin.value())
+        self.in_period(self.time)
     }
 
     /// What it took to find the collisions so far.

@@ -58,12 +58,21 @@ impl<T: Real> EventDriven<T> {
         self.begin_period(T::ZERO);
     }
 
+    /// A time since the start of the run, as one since the start of the present
+    /// period.
+    pub(super) fn in_period(&self, time: f64) -> T {
+        T::from_f64(time - self.origin.value()) - T::from_f64(self.origin.remainder())
+    }
+
     /// Ends the present period at a time of it, and begins the next one.
     pub(super) fn begin_period(&mut self, end: T) {
         for place in 0..self.records.len() {
             self.end_flight(place, end, T::ZERO);
         }
-        self.origin.add(end.to_f64());
+        let rounded = end.to_f64();
+        self.origin.add(rounded);
+        // What a finer precision than `f64` has besides.
+        self.origin.add((end - T::from_f64(rounded)).to_f64());
         self.is_too_fast = false;
         self.last_time = T::ZERO;
         self.progress = T::ZERO;
