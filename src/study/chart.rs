@@ -8,6 +8,7 @@ use plotters::coord::ranged1d::{NoDefaultFormatting, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::register_font;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::StudyError;
 use super::folder::{Folder, write};
@@ -89,8 +90,8 @@ const MARGIN: i32 = 14;
 /// For the numbers and the label of the vertical axis, pixels.
 const LABELS: i32 = 76;
 
-/// More series than these have their legend beside the chart.
-const FEW: usize = 4;
+/// Of a line of the legend, pixels.
+const LINE: i32 = 20;
 
 /// In which all text is set. It comes with the program: a PNG looks the same
 /// everywhere.
@@ -248,6 +249,12 @@ fn short(value: f64) -> String {
     digits.replace(".0e", "e")
 }
 
+impl Series {
+    fn color(&self) -> RGBColor {
+        self.color.map_or(RGBColor(120, 120, 120), |k| PALETTE[k % PALETTE.len()])
+    }
+}
+
 impl Chart {
     fn draw<B: DrawingBackend>(
         &self,
@@ -256,44 +263,50 @@ impl Chart {
         self.drawn(area).map_err(|error| error.to_string())
     }
 
-    fn has_legend_beside(&self) -> bool {
-        self.series.len() > FEW
+    /// Those that the legend names.
+    fn named(&self) -> impl Iterator<Item = &Series> {
+        self.series.iter().filter(|series| !series.name.is_empty())
     }
 
     /// How wide the legend is, roughly, pixels.
     fn legend_width(&self) -> u32 {
-        let longest = self.series.iter().map(|series| series.name.chars().count()).max();
-        longest.unwrap_or(0) as u32 * 8 + 60
+        let longest = self.named().map(|series| series.name.chars().count()).max();
+        longest.map_or(0, |letters| letters as u32 * 8 + 50)
     }
 
     /// How wide it is with its legend, pixels.
     fn width(&self) -> u32 {
-        SIZE.0 + if self.has_legend_beside() { self.legend_width() } else { 0 }
+        SIZE.0 + self.legend_width()
     }
 
-    /// Where the legend hides the fewest points.
-    fn emptiest_corner(&self) -> SeriesLabelPosition {
-        let places = |pick: fn(&(f64, f64)) -> f64, axis: &Axis| -> Vec<Option<f64>> {
-            let points = self.series.iter().flat_map(|series| &series.points);
-            let values: Vec<f64> = points.map(pick).collect();
-            let range = axis.range(values.iter().copied());
-            let part = |place: f64| (place - range.start) / (range.end - range.start);
-            values.iter().map(|&value| axis.place(value).map(part)).collect()
-        };
-        let (x, y) = (places(|point| point.0, &self.x), places(|point| point.1, &self.y));
-        let inside = |right: bool, upper: bool| {
-            let is_near = |place: f64, far: bool| if far { place > 0.6 } else { place < 0.4 };
-            let places = x.iter().zip(&y).filter_map(|(x, y)| x.zip(*y));
-            places.filter(|(x, y)| is_near(*x, right) && is_near(*y, upper)).count()
-        };
-        let corners = [
-            (SeriesLabelPosition::UpperRight, inside(true, true)),
-            (SeriesLabelPosition::UpperLeft, inside(false, true)),
-            (SeriesLabelPosition::LowerRight, inside(true, false)),
-            (SeriesLabelPosition::LowerLeft, inside(false, false)),
-        ];
-        let emptiest = corners.into_iter().min_by_key(|(_, points)| *points);
-        emptiest.map_or(SeriesLabelPosition::UpperRight, |(corner, _)| corner)
+    /// What each series is called: beside the chart, where it hides nothing.
+    fn legend<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, plotters::coord::Shift>,
+    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+        for (k, series) in self.named().enumerate() {
+            let (x, y) = (4, 50 + LINE * k as i32);
+            let stroke = series.color().stroke_width(2);
+            let dash = |from: i32, to: i32| PathElement::new([(x + from, y), (x + to, y)], stroke);
+            match series.mark {
+                Mark::Line | Mark::LineAndDiscs => area.draw(&dash(0, 24))?,
+                Mark::Dashes | Mark::DashesAndDiscs => {
+                    area.draw(&dash(0, 6))?;
+                    area.draw(&dash(18, 24))?;
+                    if series.mark == Mark::Dashes {
+                        area.draw(&dash(9, 15))?;
+                    }
+                }
+                Mark::Rings => area.draw(&Circle::new((x + 12, y), 6, stroke))?,
+            }
+            if matches!(series.mark, Mark::LineAndDiscs | Mark::DashesAndDiscs) {
+                area.draw(&Circle::new((x + 12, y), 3, series.color().filled()))?;
+            }
+            let text =
+                TextStyle::from((FONT, 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
+            area.draw(&Text::new(series.name.as_str(), (x + 32, y), text))?;
+        }
+        Ok(())
     }
 
     fn drawn<B: DrawingBackend>(
@@ -306,13 +319,11 @@ impl Chart {
             span,
             scale: axis.scale,
         };
-        let is_beside = self.has_legend_beside();
-        let legend = self.legend_width();
-        let (width, _) = area.dim_in_pixel();
-        let mut chart = ChartBuilder::on(area)
+        let (area, beside) = area.split_horizontally(SIZE.0);
+        self.legend(&beside)?;
+        let mut chart = ChartBuilder::on(&area)
             .caption(&self.title, (FONT, 18))
             .margin(MARGIN)
-            .margin_right(MARGIN + if is_beside { legend as i32 } else { 0 })
             .x_label_area_size(46)
             .y_label_area_size(LABELS)
             .build_cartesian_2d(
@@ -329,8 +340,7 @@ impl Chart {
             .y_desc(&self.y.label)
             .draw()?;
         for series in &self.series {
-            let color =
-                series.color.map_or(RGBColor(120, 120, 120), |k| PALETTE[k % PALETTE.len()]);
+            let color = series.color();
             let places: Vec<(f64, f64)> = series
                 .points
                 .iter()
@@ -338,45 +348,21 @@ impl Chart {
                 .collect();
             let stroke = color.stroke_width(2);
             let mark = series.mark;
-            let line = move |(x, y)| PathElement::new([(x, y), (x + 20, y)], stroke);
-            let thin = color.stroke_width(1);
-            let dashes = move |(x, y)| PathElement::new([(x, y), (x + 20, y)], thin);
-            let drawn = match mark {
+            let line = places.iter().copied();
+            match mark {
                 Mark::Line | Mark::LineAndDiscs => {
-                    chart.draw_series(LineSeries::new(places.iter().copied(), stroke))?.legend(line)
+                    chart.draw_series(LineSeries::new(line, stroke))?
                 }
-                Mark::Dashes | Mark::DashesAndDiscs => chart
-                    .draw_series(DashedLineSeries::new(places.iter().copied(), 6, 5, stroke))?
-                    .legend(dashes),
-                Mark::Rings => chart
-                    .draw_series(places.iter().map(|&place| Circle::new(place, 8, stroke)))?
-                    .legend(move |(x, y)| Circle::new((x + 10, y), 6, stroke)),
+                Mark::Dashes | Mark::DashesAndDiscs => {
+                    chart.draw_series(DashedLineSeries::new(line, 6, 5, stroke))?
+                }
+                Mark::Rings => chart.draw_series(line.map(|p| Circle::new(p, 8, stroke)))?,
             };
-            if !series.name.is_empty() {
-                drawn.label(&series.name);
-            }
             if matches!(mark, Mark::LineAndDiscs | Mark::DashesAndDiscs) {
                 let discs = places.iter().map(|&place| Circle::new(place, 3, color.filled()));
                 chart.draw_series(discs)?;
             }
         }
-        if self.series.iter().all(|series| series.name.is_empty()) {
-            return Ok(());
-        }
-        chart
-            .configure_series_labels()
-            .position(match is_beside {
-                true => SeriesLabelPosition::Coordinate(
-                    width as i32 - (MARGIN + LABELS + legend as i32),
-                    0,
-                ),
-                false => self.emptiest_corner(),
-            })
-            .legend_area_size(28)
-            .label_font((FONT, 13))
-            .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.2))
-            .draw()?;
         Ok(())
     }
 }
