@@ -10,7 +10,7 @@
 //! let mut file = SceneFile::builtin("superball").ok_or("no such scene")?;
 //! file.duration = Some(2.0);
 //! let study = PrecisionStudy::new(&file, 2, 16)?;
-//! let report = study.report(&Journal::unwritten(), &())?;
+//! let report = study.measure(&Journal::unwritten(), &())?;
 //! println!("{report}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -124,7 +124,7 @@ impl PrecisionStudy {
     /// # Errors
     /// If the engine can't run the scene in double-double, or the journal cannot
     /// be written. An engine that stops in a lower precision is a result.
-    pub fn report(
+    pub fn measure(
         &self,
         journal: &Journal,
         watch: &dyn Watch,

@@ -12,6 +12,8 @@
 //! trajectory is lost, since a number there would be noise.
 
 mod conclusions;
+mod display;
+mod files;
 mod measure;
 mod method;
 mod quantity;

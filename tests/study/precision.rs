@@ -43,7 +43,7 @@ fn file(text: &str) -> SceneFile {
 
 fn report(text: &str, runs: u64) -> PrecisionReport {
     let study = PrecisionStudy::new(&file(text), runs, 64).unwrap();
-    study.report(&Journal::unwritten(), &()).unwrap()
+    study.measure(&Journal::unwritten(), &()).unwrap()
 }
 
 #[test]
@@ -103,14 +103,14 @@ fn resumed_is_the_same() {
     let path = temporary.path().join("points.jsonl");
     let study = PrecisionStudy::new(&file(NOBODY_MEETS), 3, 16).unwrap();
     let journal = || Journal::open(&path, &study.heading()).unwrap();
-    let first = study.report(&journal(), &()).unwrap();
+    let first = study.measure(&journal(), &()).unwrap();
     // As if it had been interrupted after two points, within the third.
     let text = std::fs::read_to_string(&path).unwrap();
     let ends: Vec<usize> = text.match_indices('\n').map(|(end, _)| end + 1).collect();
     assert_eq!(ends.len(), 6);
     std::fs::write(&path, &text[..ends[2] + 5]).unwrap();
-    let second = study.report(&journal(), &()).unwrap();
-    let third = study.report(&journal(), &()).unwrap();
+    let second = study.measure(&journal(), &()).unwrap();
+    let third = study.measure(&journal(), &()).unwrap();
     assert_eq!(first.to_string(), second.to_string());
     assert_eq!(first.to_string(), third.to_string());
     let json = |report| serde_json::to_string(report).unwrap();
@@ -118,7 +118,7 @@ fn resumed_is_the_same() {
     // More runs need only those.
     let more = PrecisionStudy::new(&file(NOBODY_MEETS), 4, 16).unwrap();
     assert_eq!(journal().len(), 5);
-    more.report(&journal(), &()).unwrap();
+    more.measure(&journal(), &()).unwrap();
     assert_eq!(journal().len(), 7);
 }
 
@@ -149,6 +149,6 @@ fn what_stalls_is_said_to() {
         radius = 0.5
     "#;
     let study = PrecisionStudy::new(&file(text), 2, 16).unwrap();
-    let stalled = study.report(&Journal::unwritten(), &()).unwrap_err();
+    let stalled = study.measure(&Journal::unwritten(), &()).unwrap_err();
     assert!(stalled.to_string().contains("time stands still"), "{stalled}");
 }

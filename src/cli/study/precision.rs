@@ -49,7 +49,7 @@ impl PrecisionArguments {
         let default = format!("study-precision-{}", file.name);
         let (folder, journal) = self.folder.open(&default, &study.heading())?;
         let teller = Teller::new(&folder);
-        let report = study.report(&journal, &teller)?;
+        let report = study.measure(&journal, &teller)?;
         drop(teller);
         report.write(&folder)?;
         print(&format!("{report}\nTables and pictures are in {}\n", folder.path().display()))
