@@ -132,7 +132,8 @@ pub(super) fn probe(file: &SceneFile, method: &Method, end: f64) -> Result<f64, 
 fn probe_in<T: Real>(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
     /// Seconds that are enough to tell.
     const ENOUGH: f64 = 0.004;
-    let mut world = World::new(method.scene::<T>(file, end)?, Execution::default())?;
+    let alone = Execution { threads: 1, ..Execution::default() };
+    let mut world = World::new(method.scene::<T>(file, end)?, alone)?;
     let length = world.length(end);
     let start = Instant::now();
     let mut stretch = 1;
