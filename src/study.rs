@@ -5,9 +5,11 @@
 
 pub mod chart;
 mod error;
+mod file;
 pub mod fit;
 mod journal;
 mod point;
+pub mod stability;
 
 pub use error::StudyError;
 pub use journal::Journal;

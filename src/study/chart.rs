@@ -1,7 +1,6 @@
 //! Charts: measured points and laws, drawn as SVG and as PNG.
 
 use core::ops::Range;
-use std::io::Write;
 use std::path::Path;
 use std::sync::Once;
 
@@ -11,7 +10,7 @@ use plotters::prelude::*;
 use plotters::style::register_font;
 
 use super::StudyError;
-use crate::output::OutputFile;
+use super::file::write_file;
 
 /// How far a scale goes, and how it is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -116,7 +115,7 @@ impl Picture {
         let mut text = String::new();
         self.draw(&SVGBackend::with_string(&mut text, size).into_drawing_area())
             .map_err(|reason| failed(&path, reason))?;
-        write(&path, text.as_bytes())?;
+        write_file(&path, text.as_bytes())?;
 
         let path = folder.join(format!("{name}.png"));
         let file = tempfile::Builder::new().prefix(".carom-").suffix(".png").tempfile_in(folder);
@@ -124,7 +123,7 @@ impl Picture {
         self.draw(&BitMapBackend::new(file.path(), size).into_drawing_area())
             .map_err(|reason| failed(&path, reason))?;
         let bytes = std::fs::read(file.path()).map_err(|error| failed(&path, error.to_string()))?;
-        write(&path, &bytes)
+        write_file(&path, &bytes)
     }
 
     fn draw<B: DrawingBackend>(
@@ -137,13 +136,6 @@ impl Picture {
         }
         area.present().map_err(|error| error.to_string())
     }
-}
-
-/// Writes a whole file.
-fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    let mut file = OutputFile::open(path)?;
-    file.write_all(bytes).map_err(|error| file.error(error))?;
-    Ok(file.finish()?)
 }
 
 impl Axis {
