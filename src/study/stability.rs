@@ -47,9 +47,13 @@ pub fn cases() -> &'static [Case] {
         radii::CASE,
         speeds::CASE,
         far::CASE,
+        grazing::CASE,
         galperin::CASE,
+        wedge::CASE,
+        crystal::CASE,
         cradle::CASE,
         superball::CASE,
+        reversal::CASE,
     ];
     CASES
 }

@@ -1,8 +1,10 @@
 //! Newton's cradle of a thousand balls.
 
-use super::case::{Case, Extent, Findings, Studied, Trial, greatest, in_epsilon, trial};
+use super::case::{Case, Extent, Findings, Studied, Trial, exact, greatest, in_epsilon, trial};
 use super::{Figure, StudyError};
 use crate::engine::{EngineKind, Execution, Impact, World};
+use crate::lane::Lane;
+use crate::real::Real;
 use crate::scene::{Scene, SceneBuilder, Sphere};
 
 pub(super) const CASE: Case = Case {
@@ -55,8 +57,9 @@ fn trials(extent: Extent) -> Vec<Trial> {
 fn cradle<T: Studied>(row: Row) -> Trial {
     trial::<T, _>(row.name, 0.5, move || {
         let time = row.balls as f64 * row.gap + 4.0;
-        let mut world =
-            World::new(row.scene::<T>()?, Execution { threads: 1, ..Execution::default() })?;
+        let scene = row.scene::<T>()?;
+        let masses: Vec<_> = (0..row.balls).map(|k| exact(scene.bodies.mass.of(k))).collect();
+        let mut world = World::new(scene, Execution { threads: 1, ..Execution::default() })?;
         let length = world.length(time);
         while !world.advance(length, length, 1 << 12, None)? {}
         let (bodies, is) = (world.bodies(), T::PRECISION);
@@ -65,7 +68,7 @@ fn cradle<T: Studied>(row: Row) -> Trial {
         let pairs = world.collisions().pairs as f64;
         let mut figures = vec![Figure::equal(is, name("collisions"), pairs, collisions as f64, "")];
 
-        let velocities = row.velocities();
+        let velocities = row.velocities::<T>(&masses);
         if row.ratio == 1.0 {
             let wrong =
                 (0..row.balls).filter(|&k| bodies.velocity_of(k).x.to_f64() != velocities[k].left);
@@ -134,15 +137,21 @@ impl Row {
 
     /// How fast they are at the end. Equal balls take all of what they are hit
     /// with and hand it on.
-    fn velocities(&self) -> Vec<Speeds> {
-        let mut hit_with = 1.0;
+    fn velocities<T: Studied>(&self, masses: &[T::Judge]) -> Vec<Speeds> {
+        let mut hit_with = T::Judge::ONE;
         let mut speeds = Vec::new();
         for k in 0..self.balls {
-            let is_last = k + self.moving >= self.balls;
-            let kept = (1.0 - self.ratio) / (1.0 + self.ratio);
-            let left = if is_last { hit_with } else { hit_with * kept };
-            speeds.push(Speeds { hit_with, left });
-            hit_with *= 2.0 / (1.0 + self.ratio);
+            // Of the last ones nobody is hit any more.
+            let next = masses.get(k + self.moving).copied();
+            let (kept, given) = match next {
+                Some(next) => {
+                    let sum = masses[k] + next;
+                    ((masses[k] - next) / sum, (masses[k] + masses[k]) / sum)
+                }
+                None => (T::Judge::ONE, T::Judge::ONE),
+            };
+            speeds.push(Speeds { hit_with: hit_with.to_f64(), left: (hit_with * kept).to_f64() });
+            hit_with = hit_with * given;
         }
         speeds
     }

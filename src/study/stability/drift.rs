@@ -143,17 +143,22 @@ fn figures(precision: Precision, name: &str, runs: &[&Curve]) -> Vec<Figure> {
     let half = |what: &str, order: Estimate| {
         let name = format!("{what}, {name}");
         Figure::near(precision, name, order.value, 0.5, 0.05 + 3.0 * order.error, "")
+            .with_law("½ ± (3σ + .05)")
     };
+    let (n, end) = errors(runs).last().copied().unwrap_or((1.0, f64::NAN));
+    let share = end * BODIES as f64 / n.sqrt();
     vec![
+        Figure::at_most(precision, format!("at the end, {name}"), share, 8.0, "√n ε"),
         half("exponent", order),
-        half("exponent of the spread", spread),
+        half("of the spread", spread),
         Figure::at_most(
             precision,
             format!("drift, {name}"),
             drift.value,
             DRIFT + 3.0 * drift.error,
             "ε",
-        ),
+        )
+        .with_law("≤ .001 ε + 3σ"),
     ]
 }
 

@@ -3,6 +3,7 @@
 use super::case::{
     Case, Extent, Findings, Random, Studied, Trial, greatest, in_epsilon, t3, trial,
 };
+use super::figure::power_of_ten;
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
 use crate::scene::{Scene, Spheres};
@@ -12,9 +13,10 @@ use crate::vec3::Vec3;
 pub(super) const CASE: Case = Case {
     name: "far-away",
     title: "10⁸ diameters from the origin",
-    law: "A place at X is right to ε X: so is the direction of a normal, and by a few ε X of the \
-          velocity two bodies part wrongly; overlaps are no deeper. Energy does not know of \
-          places: 8 √n ε of one body's share, as everywhere. Where ε X is more than .01 \
+    law: "A place at X is right to ε X: so is the direction of a normal, and by 4 ε X at most of \
+          the velocity two bodies part wrongly; overlaps are no deeper than 4 δ, the rounding of a place \
+          and of the time. Energy does not know of \
+          places: 12 √n ε of one body's share, as everywhere. Where ε X is more than .01 \
           diameters the precision cannot hold the scene.",
     trials,
     combine: Findings::joined,
@@ -38,16 +40,17 @@ fn is_lost<T: Studied>(power: i32) -> bool {
 }
 
 /// What is told where the scene cannot even be built.
-fn lost<T: Studied>(name: String) -> Figure {
-    Figure::at_most(T::PRECISION, name, f64::NAN, 1.0, "").beyond_precision()
+fn lost<T: Studied>(name: String, bound: f64, unit: &str) -> Figure {
+    Figure::at_most(T::PRECISION, name, f64::NAN, bound, unit).beyond_precision()
 }
 
 fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
-    trial::<T, _>(format!("pairs, 10^{power}"), 1e-4 * pairs as f64, move || {
+    let ten = power_of_ten(power);
+    trial::<T, _>(format!("pairs, {ten}"), 1e-4 * pairs as f64, move || {
         let far = 10.0_f64.powi(power);
-        let name = format!("two that meet at 10^{power}");
+        let name = format!("two that meet at {ten}");
         if is_lost::<T>(power) {
-            return Ok(vec![lost::<T>(name)]);
+            return Ok(vec![lost::<T>(name, 4.0, "ε X")]);
         }
         let mut random = Random(4);
         let mut worst: f64 = 0.0;
@@ -67,22 +70,25 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             worst = greatest([worst, error]);
         }
         let off = in_epsilon::<T>(worst) / far.max(3.0);
-        Ok(vec![Figure::at_most(T::PRECISION, name, off, 16.0, "ε X")])
+        Ok(vec![Figure::at_most(T::PRECISION, name, off, 4.0, "ε X")])
     })
 }
 
 fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
-    trial::<T, _>(format!("gas, 10^{power}"), 1e-6 * collisions as f64, move || {
-        let name = |what: &str| format!("{what} of a gas at 10^{power}");
+    let ten = power_of_ten(power);
+    trial::<T, _>(format!("gas, {ten}"), 1e-6 * collisions as f64, move || {
+        let name = |what: &str| format!("{what} of a gas at {ten}");
         if is_lost::<T>(power) {
-            return Ok(vec![lost::<T>(name("energy")), lost::<T>(name("deepest overlap"))]);
+            return Ok(vec![
+                lost::<T>(name("energy"), gas::WALK, "√n ε"),
+                lost::<T>(name("overlap"), 4.0, "δ"),
+            ]);
         }
         let far = 10.0_f64.powi(power);
-        let kept = gas::run(distant_gas::<T>(far)?, collisions)?;
-        let overlap = in_epsilon::<T>(kept.overlap) / far.max(8.0);
+        let kept = gas::run(distant_gas::<T>(far)?, collisions, far + 8.0)?;
         Ok(vec![
-            Figure::at_most(T::PRECISION, name("energy"), kept.energy, 8.0, "√n ε"),
-            Figure::at_most(T::PRECISION, name("deepest overlap"), overlap, 4.0, "ε X"),
+            Figure::at_most(T::PRECISION, name("energy"), kept.energy, gas::WALK, "√n ε"),
+            Figure::at_most(T::PRECISION, name("overlap"), kept.overlap, 4.0, "δ"),
         ])
     })
 }

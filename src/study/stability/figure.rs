@@ -123,6 +123,12 @@ impl Figure {
         }
     }
 
+    /// The same with the law in other words.
+    #[must_use]
+    pub fn with_law(self, law: &str) -> Self {
+        Self { law: law.to_owned(), ..self }
+    }
+
     /// The same, not judged, as theory says that the precision cannot do it.
     #[must_use]
     pub fn beyond_precision(self) -> Self {
@@ -160,6 +166,16 @@ impl fmt::Display for Figure {
 
 fn with_unit(value: f64, unit: &str) -> String {
     if unit.is_empty() { number(value) } else { format!("{} {unit}", number(value)) }
+}
+
+/// `10ᵏ` as it is written.
+pub(super) fn power_of_ten(k: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |digit: char| match digit.to_digit(10) {
+        Some(digit) => DIGITS[digit as usize],
+        None => '⁻',
+    };
+    format!("10{}", k.to_string().chars().map(raised).collect::<String>())
 }
 
 /// A number in few letters, a count with all of its digits.

@@ -17,17 +17,34 @@ pub(super) struct Kept {
     pub energy: f64,
     /// The same of the momentum, over `√(2 M E)`.
     pub momentum: f64,
-    /// The deepest overlap that was seen, length.
+    /// The deepest overlap that was seen, in [roundings](rounding) of a place.
     pub overlap: f64,
-    /// Collisions of pairs.
-    pub pairs: u64,
 }
+
+/// What a place in a box that reaches to `extent` is uncertain by: its own
+/// rounding, and the way that a fast body goes in what the time is rounded by,
+/// which is an `f64` in both precisions. For a temperature and masses of 1.
+pub(super) fn rounding<T: Studied>(extent: f64, time: f64) -> f64 {
+    T::EPSILON.to_f64() * extent + f64::EPSILON * time * FAST
+}
+
+/// Of the fastest bodies.
+const FAST: f64 = 4.0;
+
+/// What the energy of a gas may walk by, √n ε of the energy of one of N bodies:
+/// it is 2 to 4, root mean square, for a fluid of equal spheres.
+pub(super) const WALK: f64 = 12.0;
 
 /// How often one looks for overlaps.
 const LOOKS: u64 = 16;
 
-/// Runs a gas in no field for so many collisions.
-pub(super) fn run<T: Studied>(scene: Scene<T>, collisions: u64) -> Result<Kept, StudyError> {
+/// Runs a gas in no field for so many collisions. No coordinate is above
+/// `extent`.
+pub(super) fn run<T: Studied>(
+    scene: Scene<T>,
+    collisions: u64,
+    extent: f64,
+) -> Result<Kept, StudyError> {
     let features: Vec<Feature<T>> =
         scene.surroundings.iter().flat_map(|shape| shape.features()).collect();
     let (start, periodic) = (scene.bodies.clone(), scene.periodic);
@@ -37,7 +54,8 @@ pub(super) fn run<T: Studied>(scene: Scene<T>, collisions: u64) -> Result<Kept, 
         // Just after a collision: two are in contact.
         world.advance_until(collisions / LOOKS, 1e12)?;
         let nearest = |offset| periodic.map_or(offset, |space| space.nearest(offset));
-        deepest = greatest([deepest, overlap(&world.bodies(), &features, nearest)]);
+        let overlap = overlap(&world.bodies(), &features, nearest);
+        deepest = greatest([deepest, overlap / rounding::<T>(extent, world.time())]);
     }
     let end = world.bodies();
     let walk = (world.collisions().total() as f64).sqrt() / start.len() as f64;
@@ -47,7 +65,6 @@ pub(super) fn run<T: Studied>(scene: Scene<T>, collisions: u64) -> Result<Kept, 
         energy: in_epsilon::<T>(relative_change(&end, &start)).abs() / walk,
         momentum: in_epsilon::<T>(gained / scale) / walk,
         overlap: deepest,
-        pairs: world.collisions().pairs,
     })
 }
 

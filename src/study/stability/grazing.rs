@@ -6,7 +6,7 @@ use crate::contact::Surface;
 
 pub(super) const CASE: Case = Case {
     name: "grazing",
-    title: "two spheres whose paths come within 1 − δ of contact, δ = ±10⁰ … ±10⁻¹⁵",
+    title: "two spheres whose paths come within 1 − δ of contact, δ = ±.9 … ±10⁻¹⁷",
     law: "The normal is right to ε/√δ, as the place of contact moves so much along the path; the smooth \
           map is continuous, so no error is greater than some √ε. The rough map has a step at δ = 0: \
           the pair parts as one that meets or as one that misses, each to the same error, and by no \
@@ -39,12 +39,12 @@ struct Worst {
 
 fn graze<T: Studied>(surface: Surface, pairs: u64) -> Trial {
     let kind = if surface == Surface::Rough { "rough" } else { "smooth" };
-    trial::<T, _>(kind, 32.0 * 3e-5 * pairs as f64, move || {
+    trial::<T, _>(kind, 36.0 * 3e-5 * pairs as f64, move || {
         let mut random = Random(5);
         let mut worst = Worst::default();
-        for k in 0..32 * pairs {
+        for k in 0..36 * pairs {
             let side = if k % 2 == 0 { 1.0 } else { -1.0 };
-            let delta = side * 10.0_f64.powi(-(k as i32 / 2 % 16)) * 0.9;
+            let delta = side * 10.0_f64.powi(-(k as i32 / 2 % 18)) * 0.9;
             measure::<T>(&mut random, surface, delta, &mut worst)?;
         }
         let name = |what: &str| format!("{what}, {kind}");

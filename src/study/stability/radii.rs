@@ -3,6 +3,7 @@
 use super::case::{
     Case, Extent, Findings, Random, Studied, Trial, greatest, in_epsilon, t3, trial,
 };
+use super::figure::power_of_ten;
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
 use crate::scene::{Scene, Sphere, Spheres};
@@ -13,8 +14,8 @@ pub(super) const CASE: Case = Case {
     title: "radii of 1 and down to 10⁻⁶",
     law: "A collision of two of the same density (masses up to 10¹⁸) is right to a few ε of the \
           relative velocity, and so are the surfaces' velocities r w. A hundred small spheres around a \
-          great one in a box of width 4 keep the energy but for a walk of 8 √n ε of one body's \
-          share, and overlap by no more than the places' rounding.",
+          great one in a box of width 4 keep the energy but for a walk of 12 √n ε of one body's \
+          share, and overlap by 4 δ at most, the rounding of a place and of the time.",
     trials,
     combine: Findings::joined,
     picture: None,
@@ -33,7 +34,8 @@ fn trials(extent: Extent) -> Vec<Trial> {
 }
 
 fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
-    trial::<T, _>(format!("pairs, 10^{power}"), 1e-4 * pairs as f64, move || {
+    let ten = power_of_ten(power);
+    trial::<T, _>(format!("pairs, {ten}"), 1e-4 * pairs as f64, move || {
         let mut random = Random(2);
         let mut worst: f64 = 0.0;
         for k in 0..pairs {
@@ -51,26 +53,26 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             };
             worst = greatest([worst, error]);
         }
-        let name = format!("a pair, 10^{power}");
+        let name = format!("a pair, {ten}");
         Ok(vec![Figure::at_most(T::PRECISION, name, in_epsilon::<T>(worst), 16.0, "ε")])
     })
 }
 
 fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
-    trial::<T, _>(format!("dust, 10^{power}"), 1e-6 * collisions as f64, move || {
+    let ten = power_of_ten(power);
+    trial::<T, _>(format!("dust, {ten}"), 1e-6 * collisions as f64, move || {
         let mut figures = Vec::new();
         for (surface, kind) in [(Surface::Smooth, "smooth"), (Surface::Rough, "rough")] {
-            let kept = gas::run(dust::<T>(power, surface)?, collisions)?;
-            let name = |what: &str| format!("{what}, {kind}, 10^{power}");
-            let overlap = in_epsilon::<T>(kept.overlap) / SIDE;
-            figures.push(Figure::at_most(T::PRECISION, name("energy"), kept.energy, 8.0, "√n ε"));
+            let kept = gas::run(dust::<T>(power, surface)?, collisions, SIDE)?;
+            let name = |what: &str| format!("{what}, {kind}, {ten}");
             figures.push(Figure::at_most(
                 T::PRECISION,
-                name("deepest overlap"),
-                overlap,
-                4.0,
-                "ε L",
+                name("energy"),
+                kept.energy,
+                gas::WALK,
+                "√n ε",
             ));
+            figures.push(Figure::at_most(T::PRECISION, name("overlap"), kept.overlap, 4.0, "δ"));
         }
         Ok(figures)
     })

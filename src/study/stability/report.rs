@@ -128,7 +128,7 @@ impl fmt::Display for Report {
             writeln!(
                 f,
                 "{:QUANTITY$} {:LAW$} {:>CELL$} {:>CELL$}",
-                "", "", "f32  law  ", "f64  law  "
+                "", "", "f32       ", "f64       "
             )?;
             for (quantity, law, cells) in rows(&section.figures) {
                 let mut lines = wrapped(quantity, QUANTITY - 2).into_iter();

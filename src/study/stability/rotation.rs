@@ -329,14 +329,7 @@ fn judged(precision: Precision, method: Method, skewness: &Curve, angle: &Curve)
         }
         _ => vec![
             Figure::at_most(precision, name("‖MᵗM − 1‖"), most, 2.0, "ε").compared(),
-            Figure::at_most(
-                precision,
-                name("angle off"),
-                last / epsilon / steps.sqrt(),
-                0.5,
-                "√n ε",
-            )
-            .compared(),
+            Figure::at_most(precision, name("angle off"), last, 0.0, "rad").compared(),
         ],
     }
 }

@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 
-use super::case::{Case, Extent, Findings, Studied, Trial, in_epsilon, t3, trial};
 use super::Figure;
+use super::case::{Case, Extent, Findings, Studied, Trial, in_epsilon, t3, trial};
 use crate::engine::EventDriven;
 use crate::scene::{Scene, Sphere};
 use crate::surroundings::Plane;
@@ -16,7 +16,7 @@ pub(super) const CASE: Case = Case {
           balls on a line are a point in a wedge (Galperin 2003). At α = π/(n + ½) the count bears an \
           error of π/2n. Where n ε/2, of a normal or a mass that is rounded once and taken n times, \
           is more, the precision cannot count. A ball that jumps in a wedge keeps its energy but for a walk \
-          of 8 √n ε.",
+          of 12 √n ε.",
     trials,
     combine: Findings::joined,
     picture: None,
@@ -100,6 +100,6 @@ fn jumping<T: Studied>(slope: f64, jumps: u64) -> Trial {
         let change = (world.energy().total() / start - 1.0).abs();
         let walk = in_epsilon::<T>(change) / (jumps as f64).sqrt();
         let name = format!("energy of a ball in a wedge, slope {slope}");
-        Ok(vec![Figure::at_most(T::PRECISION, name, walk, 8.0, "√n ε")])
+        Ok(vec![Figure::at_most(T::PRECISION, name, walk, 12.0, "√n ε")])
     })
 }

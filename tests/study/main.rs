@@ -1,0 +1,3 @@
+//! The studies.
+
+mod stability;
