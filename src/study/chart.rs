@@ -228,6 +228,23 @@ fn short(value: f64) -> String {
 }
 
 impl Chart {
+    /// The upper corner from which most lines go away, or to which they fall.
+    fn legend_corner(&self) -> SeriesLabelPosition {
+        let ends = self.series.iter().filter_map(|series| {
+            let by_x = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+            let points = || series.points.iter();
+            Some((points().min_by(by_x)?.1, points().max_by(by_x)?.1))
+        });
+        let (rising, falling) = ends.fold((0, 0), |(rising, falling), (left, right)| {
+            (rising + usize::from(right > left), falling + usize::from(right < left))
+        });
+        if rising > falling {
+            SeriesLabelPosition::UpperLeft
+        } else {
+            SeriesLabelPosition::UpperRight
+        }
+    }
+
     fn draw<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
@@ -295,7 +312,7 @@ impl Chart {
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(self.legend_corner())
             .legend_area_size(28)
             .label_font((FONT, 13))
             .background_style(WHITE.mix(0.85))

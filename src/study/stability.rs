@@ -23,6 +23,7 @@ mod galperin;
 mod gas;
 mod grazing;
 mod masses;
+mod orientation;
 mod pair;
 mod radii;
 mod reversal;

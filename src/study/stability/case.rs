@@ -41,6 +41,16 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Curve {
+    /// A curve of numbers. What is no number becomes the greatest one: it does
+    /// not hold, and a file can keep it.
+    pub(super) fn new(precision: Precision, name: String, points: Vec<(f64, f64)>) -> Self {
+        let number = |value: f64| if value.is_finite() { value } else { f64::MAX };
+        let points = points.into_iter().map(|(x, y)| (x, number(y))).collect();
+        Self { precision, name, points }
+    }
+}
+
 /// What a trial found.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Findings {
@@ -71,6 +81,9 @@ impl From<Vec<Figure>> for Findings {
 /// A piece of a case, with a result of its own.
 pub(super) type Trial = Point<'static, Findings>;
 
+/// The name of a picture, and how it is drawn.
+pub(super) type Drawn = (&'static str, fn(&[Curve]) -> Picture);
+
 /// A known solution or a law, and how carom is held to it.
 pub struct Case {
     /// What the command line calls it.
@@ -82,8 +95,8 @@ pub struct Case {
     pub(super) trials: fn(Extent) -> Vec<Trial>,
     /// What becomes of the findings of all trials.
     pub(super) combine: fn(Vec<Findings>) -> Findings,
-    /// The name of its picture, and how it is drawn.
-    pub(super) picture: Option<(&'static str, fn(&[Curve]) -> Picture)>,
+    /// What shows it.
+    pub(super) picture: Option<Drawn>,
 }
 
 /// A precision that is studied, with a better one to judge it by.

@@ -32,7 +32,7 @@ const LOOKS: u64 = 32;
 
 fn trials(extent: Extent) -> Vec<Trial> {
     let collisions = extent.of(10_000_000, 100_000);
-    [1.3, 1.41, 1.4142]
+    [1.3, 1.41, 1.414]
         .into_iter()
         .flat_map(|density| {
             [crystal::<f32>(density, collisions), crystal::<f64>(density, collisions)]

@@ -100,7 +100,7 @@ fn run<T: Studied>(fluid: Fluid, seed: u64, collisions: u64) -> Trial {
             let change = in_epsilon::<T>(relative_change(&world.bodies(), &start));
             changes.push((n as f64, change));
         }
-        let curve = Curve { precision: T::PRECISION, name: fluid.name(), points: changes };
+        let curve = Curve::new(T::PRECISION, fluid.name(), changes);
         Ok(Findings { figures: Vec::new(), curves: vec![curve] })
     })
 }
@@ -115,7 +115,7 @@ fn combine(runs: Vec<Findings>) -> Findings {
             let found: Vec<&Curve> = runs.curves.iter().filter(is_one).collect();
             all.figures.extend(figures(precision, &fluid.name(), &found));
             let points = at_points(&found, |changes| mean_square(changes.iter().copied()).sqrt());
-            all.curves.push(Curve { precision, name: fluid.name(), points });
+            all.curves.push(Curve::new(precision, fluid.name(), points));
         }
     }
     all
@@ -194,7 +194,7 @@ fn picture(curves: &[Curve]) -> Picture {
         Series {
             name: name.to_owned(),
             color: None,
-            mark: Mark::Dashes,
+            mark: if power < 1.0 { Mark::Dashes } else { Mark::Line },
             points: vec![at(first), at(end)],
         }
     };

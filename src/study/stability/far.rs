@@ -59,7 +59,7 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             let aim = 0.7 * random.unit();
             let mut balls = pair::meeting(&mut random, [0.5; 2], [1.0; 2], aim);
             for ball in &mut balls {
-                ball.position = ball.position + Vec3::new(far, far, -far);
+                ball.position += Vec3::new(far, far, -far);
             }
             let scene = pair::scene::<T>(&balls, surface)?;
             let Some(expected) = pair::expected(&scene) else { continue };

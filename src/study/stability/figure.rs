@@ -183,7 +183,7 @@ pub(super) fn number(value: f64) -> String {
     let size = value.abs();
     match size {
         _ if value.fract() == 0.0 && size < 1e10 => format!("{value:.0}"),
-        _ if size >= 1e4 || size < 1e-3 => format!("{value:.2e}"),
+        _ if !(1e-3..1e4).contains(&size) => format!("{value:.2e}"),
         _ if size >= 100.0 => format!("{value:.0}"),
         _ if size >= 10.0 => format!("{value:.1}"),
         _ if size >= 0.1 => format!("{value:.2}"),

@@ -35,9 +35,9 @@ pub struct Report {
 
 /// Of the table, letters.
 const WIDTH: usize = 100;
-const QUANTITY: usize = 42;
+const QUANTITY: usize = 39;
 const LAW: usize = 18;
-const CELL: usize = 19;
+const CELL: usize = 20;
 
 impl Section {
     pub(super) fn new(case: &Case, findings: Findings) -> Self {

@@ -66,7 +66,7 @@ fn chaotic<T: Studied>(surface: Surface, bodies: u64, seed: u64) -> Trial {
         for c in (2..=most).step_by(2) {
             points.push((c as f64, way_off(&molten, c * bodies / 2)?));
         }
-        let curve = Curve { precision: T::PRECISION, name: name.clone(), points };
+        let curve = Curve::new(T::PRECISION, name.clone(), points);
         Ok(Findings { figures: Vec::new(), curves: vec![curve] })
     })
 }
@@ -100,10 +100,10 @@ fn regular<T: Studied>(surface: Surface, bounces: u64) -> Trial {
         let size = |&(n, off): &(f64, f64)| in_epsilon::<T>(off) / n.powf(1.5);
         let worst = super::case::greatest(points.iter().map(size));
         let figures = vec![
-            Figure::at_most(T::PRECISION, format!("start off, {name}"), worst, 8.0, "n^1.5 ε"),
+            Figure::at_most(T::PRECISION, format!("start off, {name}"), worst, 8.0, "n√n ε"),
             Figure::at_most(T::PRECISION, format!("grows as n to the, {name}"), growth, 1.6, ""),
         ];
-        let curve = Curve { precision: T::PRECISION, name: name.to_owned(), points };
+        let curve = Curve::new(T::PRECISION, name.to_owned(), points);
         Ok(Findings { figures, curves: vec![curve] })
     })
 }
@@ -150,7 +150,7 @@ fn combine(trials: Vec<Findings>) -> Findings {
         let curves = [Precision::F32, Precision::F64].map(|precision| {
             let is_one = |curve: &&Curve| curve.precision == precision && curve.name == name;
             let runs: Vec<&Curve> = found.curves.iter().filter(is_one).collect();
-            Curve { precision, name: name.clone(), points: mean_curve(&runs) }
+            Curve::new(precision, name.clone(), mean_curve(&runs))
         });
         all.figures.extend(judged(&name, &curves));
         all.curves.extend(curves);

@@ -1,13 +1,14 @@
 //! Rotation in small steps: what becomes of an orientation.
 
-use faer::Mat;
-
+use super::Figure;
 use super::case::{
     Case, Curve, Extent, Findings, Random, Studied, Trial, exact, exact_vector, greatest, trial,
 };
 use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use super::figure::named;
-use super::{Figure, StudyError};
+use super::orientation::{
+    from_matrix, nearest_orthonormal, normalised, product, quaternion, to_matrix,
+};
 use crate::mat3::Mat3;
 use crate::motion::rotation::{orthonormalised, reference_rotation, turned};
 use crate::real::Real;
@@ -106,15 +107,11 @@ fn polar<T: Studied>(k: usize, steps: i32) -> Trial {
         let run = start::<T>(k);
         let turn = reference_rotation(run.1, T::ratio(1, 100));
         let mut now = run.0;
-        let mut failed = Ok(());
         let curves = errors(Method::Polar, steps, &[run], |_| {
-            match nearest_orthonormal(turn * now) {
-                Ok(nearest) => now = nearest,
-                Err(error) => failed = Err(error),
-            }
+            now = nearest_orthonormal(turn * now);
             now
         });
-        failed.map(|()| Findings { figures: Vec::new(), curves })
+        Ok(Findings { figures: Vec::new(), curves })
     })
 }
 
@@ -167,7 +164,7 @@ fn errors<T: Studied>(
     [("skewness", skewness), ("angle", angle)]
         .map(|(what, points)| {
             let name = format!("{what}, {}", method.name());
-            Curve { precision: T::PRECISION, name, points }
+            Curve::new(T::PRECISION, name, points)
         })
         .into()
 }
@@ -187,80 +184,6 @@ fn angle_between<T: Real>(a: Mat3<T>, b: Mat3<T>) -> f64 {
     let [x, y, z] = (a * b.transpose()).columns;
     let twice = Vec3::new(y.z - z.y, z.x - x.z, x.y - y.x);
     (twice.length() * T::ratio(1, 2)).to_f64()
-}
-
-/// `U Vᵗ` of the singular value decomposition `U S Vᵗ`: the orthonormal matrix
-/// nearest to this one (Fan and Hoffman 1955).
-fn nearest_orthonormal<T: Real>(m: Mat3<T>) -> Result<Mat3<T>, StudyError> {
-    let rows = m.rows().map(T::to_f64);
-    let full = Mat::from_fn(3, 3, |row, column| rows[3 * row + column]);
-    let decomposition = full.svd().map_err(|error| {
-        StudyError::Asked(format!("no singular values of a rotation: {error:?}"))
-    })?;
-    let polar = decomposition.U() * decomposition.V().transpose();
-    Ok(Mat3::from_rows(core::array::from_fn(|k| T::from_f64(polar[(k / 3, k % 3)]))))
-}
-
-/// `[cos h, sin h n]`, `h = |w|t/2`.
-fn quaternion<T: Real>(spin: Vec3<T>, time: T) -> [T; 4] {
-    let speed = spin.length();
-    let half = speed * time * T::ratio(1, 2);
-    let (sine, cosine) = crate::trigonometry::sin_cos(half);
-    let n = spin * (sine / speed);
-    [cosine, n.x, n.y, n.z]
-}
-
-fn product<T: Real>([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> [T; 4] {
-    [
-        a * e - b * f - c * g - d * h,
-        a * f + b * e + c * h - d * g,
-        a * g - b * h + c * e + d * f,
-        a * h + b * g - c * f + d * e,
-    ]
-}
-
-fn normalised<T: Real>(q: [T; 4]) -> [T; 4] {
-    let [a, b, c, d] = q;
-    let length = (a * a + b * b + c * c + d * d).sqrt();
-    q.map(|part| part / length)
-}
-
-/// The matrix of a unit quaternion.
-fn to_matrix<T: Real>([a, b, c, d]: [T; 4]) -> Mat3<T> {
-    let (one, two) = (T::ONE, T::whole(2));
-    Mat3::from_rows([
-        one - two * (c * c + d * d),
-        two * (b * c - a * d),
-        two * (b * d + a * c),
-        two * (b * c + a * d),
-        one - two * (b * b + d * d),
-        two * (c * d - a * b),
-        two * (b * d - a * c),
-        two * (c * d + a * b),
-        one - two * (b * b + c * c),
-    ])
-}
-
-/// A quaternion of a rotation, to a few ε. The trace is positive for the angles
-/// that are started from, or the result is a little worse.
-fn from_matrix<T: Real>(m: Mat3<T>) -> [T; 4] {
-    let [x, y, z] = m.columns;
-    // The greatest of the four squares, times four.
-    let squares = [
-        T::ONE + x.x + y.y + z.z,
-        T::ONE + x.x - y.y - z.z,
-        T::ONE - x.x + y.y - z.z,
-        T::ONE - x.x - y.y + z.z,
-    ];
-    let sums = [x.y + y.x, x.z + z.x, y.z + z.y];
-    let differences = [y.z - z.y, z.x - x.z, x.y - y.x];
-    let greatest = squares.iter().fold(T::ZERO, |most, &square| square.greater(most));
-    normalised(match squares.iter().position(|&square| square == greatest) {
-        Some(1) => [differences[0], squares[1], sums[0], sums[1]],
-        Some(2) => [differences[1], sums[0], squares[2], sums[2]],
-        Some(3) => [differences[2], sums[1], sums[2], squares[3]],
-        _ => [squares[0], differences[0], differences[1], differences[2]],
-    })
 }
 
 /// The worst of all spins, judged.
@@ -291,7 +214,7 @@ fn worst<'a>(precision: Precision, name: &str, curves: impl Iterator<Item = &'a 
             }
         }
     }
-    Curve { precision, name: name.to_owned(), points }
+    Curve::new(precision, name.to_owned(), points)
 }
 
 fn judged(precision: Precision, method: Method, skewness: &Curve, angle: &Curve) -> Vec<Figure> {

@@ -57,7 +57,7 @@ fn superball<T: Studied>(factor: (i32, i32), bounces: u64) -> Trial {
             ),
         ];
         let name = format!("q = {p}/{q}");
-        Ok(Findings { figures, curves: vec![Curve { precision: is, name, points: angles }] })
+        Ok(Findings { figures, curves: vec![Curve::new(is, name, angles)] })
     })
 }
 
