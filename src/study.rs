@@ -16,6 +16,7 @@ mod memory;
 mod point;
 pub mod precision;
 pub mod scaling;
+pub mod stability;
 mod subject;
 pub mod work_precision;
 

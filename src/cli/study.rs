@@ -3,6 +3,7 @@
 mod error;
 mod precision;
 mod scaling;
+mod stability;
 mod watch;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +35,20 @@ Examples:
   carom study error rough-gas --lanes scalar,4,8,16,auto --threads 1,2
   carom study error bouncing-ball --of energy     judged by the energy")]
     Error(error::ErrorArguments),
+    /// The stress suite: extremes and long runs against the laws that should hold.
+    ///
+    /// Each case has a law, from a known solution or from theory, and is measured
+    /// and judged in f32 and f64. All of it takes some 20 minutes on two cores.
+    #[command(after_help = "\
+Examples:
+  carom study stability                    all cases
+  carom study stability --quick            a hundredth of them, in a minute
+  carom study stability galperin cradle    these two
+  carom study stability --list             what there is
+
+A figure that does not hold is a finding, and no failure of the program: exit
+status 0.")]
+    Stability(stability::StabilityArguments),
     /// Time and memory against the number of bodies, threads and lanes.
     ///
     /// The scene is made larger and smaller at the density that it has: the
@@ -74,6 +89,7 @@ impl Study {
             Self::Error(arguments) => arguments.run(),
             Self::Scaling(arguments) => arguments.run(),
             Self::Precision(arguments) => arguments.run(),
+            Self::Stability(arguments) => arguments.run(),
         }
     }
 }

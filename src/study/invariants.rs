@@ -95,3 +95,11 @@ impl Invariants {
 fn ratio(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
+
+/// `E/E₀ − 1` of bodies in no field, without a rounding of the size of ε.
+#[must_use]
+pub fn energy_change<T: Real>(now: &Bodies<T>, start: &Bodies<T>) -> f64 {
+    let energy = |bodies| Invariants::of(bodies, Vec3::ZERO).energy;
+    let start = energy(start);
+    ((energy(now) - start) / start).high()
+}

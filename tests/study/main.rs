@@ -4,6 +4,7 @@
 mod double_double;
 mod precision;
 mod scaling;
+mod stability;
 mod work_precision;
 
 use carom::scene::SceneFile;

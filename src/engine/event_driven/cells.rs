@@ -209,7 +209,9 @@ impl<T: Real> Cells<T> {
         }
     }
 
-    /// The corners of a cell's inside, with the margin.
+    /// The corners of a cell's inside, with the margin. Nobody leaves a region
+    /// that is closed: there it ends farther away than anybody flies in a period,
+    /// and not so far that its product with an acceleration overflows.
     #[inline(always)]
     pub fn bounds(&self, cell: [i32; 3], axis: usize) -> [T; 2] {
         let Axis { lower, side, count, ends, .. } = &self.axes[axis];
@@ -217,9 +219,9 @@ impl<T: Real> Cells<T> {
         let k = cell[axis];
         let low = *lower + *side * T::whole(k) - margin;
         let high = *lower + *side * T::whole(k + 1) + margin;
-        let far = T::from_f64(1e30);
         if *ends == Ends::Closed {
-            [if k == 0 { -far } else { low }, if k + 1 == *count { far } else { high }]
+            let far = *side * T::whole(1 << 20);
+            [if k == 0 { low - far } else { low }, if k + 1 == *count { high + far } else { high }]
         } else {
             [low, high]
         }

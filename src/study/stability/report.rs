@@ -1,0 +1,193 @@
+//! The report of the stress suite: a table for a terminal, files for programs.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::case::{Curve, Findings};
+use super::{Case, Extent, Figure, Verdict};
+use crate::scene::Precision;
+use crate::study::{Folder, Machine, StudyError};
+
+/// What came of one case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Section {
+    /// The name of the case.
+    pub case: String,
+    /// What it is about.
+    pub title: String,
+    /// What should hold.
+    pub law: String,
+    /// What was measured.
+    pub figures: Vec<Figure>,
+    /// What is drawn.
+    pub curves: Vec<Curve>,
+}
+
+/// What came of all cases of a study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// On what.
+    pub machine: Machine,
+    /// How long the runs are.
+    pub extent: Extent,
+    /// Case by case.
+    pub cases: Vec<Section>,
+}
+
+/// Of the table, letters.
+const WIDTH: usize = 100;
+const QUANTITY: usize = 39;
+const LAW: usize = 18;
+const CELL: usize = 20;
+
+impl Section {
+    pub(super) fn new(case: &Case, findings: Findings) -> Self {
+        Self {
+            case: case.name.to_owned(),
+            title: case.title.to_owned(),
+            law: case.law.to_owned(),
+            figures: findings.figures,
+            curves: findings.curves,
+        }
+    }
+}
+
+impl Report {
+    /// All figures of all cases.
+    pub fn figures(&self) -> impl Iterator<Item = &Figure> {
+        self.cases.iter().flat_map(|case| &case.figures)
+    }
+
+    /// How many figures have this verdict.
+    #[must_use]
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.figures().filter(|figure| figure.verdict == verdict).count()
+    }
+
+    /// Writes `report.txt`, `stability.csv`, `stability.json` and the pictures of
+    /// the cases into a folder.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
+        folder.write("report.txt", self.to_string().as_bytes())?;
+        folder.write_json("stability.json", self)?;
+        let rows: Vec<Row<'_>> = self
+            .cases
+            .iter()
+            .flat_map(|section| section.figures.iter().map(|figure| Row::of(&section.case, figure)))
+            .collect();
+        folder.write_csv("stability.csv", &rows)?;
+        for section in &self.cases {
+            let picture = super::case(&section.case).and_then(|case| case.picture);
+            if let Some((name, picture)) = picture {
+                picture(&section.curves).write(folder, name)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A row of the table of comma-separated values.
+#[derive(Serialize)]
+struct Row<'a> {
+    case: &'a str,
+    precision: Precision,
+    quantity: &'a str,
+    law: &'a str,
+    measured: Option<f64>,
+    bound: Option<f64>,
+    unit: &'a str,
+    verdict: Verdict,
+}
+
+impl<'a> Row<'a> {
+    fn of(case: &'a str, figure: &'a Figure) -> Self {
+        let Figure { precision, quantity, law, measured, bound, unit, verdict } = figure;
+        Self {
+            case,
+            precision: *precision,
+            quantity,
+            law,
+            measured: *measured,
+            bound: *bound,
+            unit,
+            verdict: *verdict,
+        }
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}\n", self.machine)?;
+        for section in &self.cases {
+            writeln!(f, "{}: {}", section.case, section.title)?;
+            for line in wrapped(&section.law, WIDTH - 2) {
+                writeln!(f, "  {line}")?;
+            }
+            writeln!(
+                f,
+                "{:QUANTITY$} {:LAW$} {:>CELL$} {:>CELL$}",
+                "", "", "f32       ", "f64       "
+            )?;
+            for (quantity, law, cells) in rows(&section.figures) {
+                let mut lines = wrapped(quantity, QUANTITY - 2).into_iter();
+                let first = lines.next().unwrap_or_default();
+                let [single, double] =
+                    cells.map(|cell| cell.map_or(String::new(), Figure::to_string));
+                let line = format!(
+                    "  {first:width$} {law:LAW$} {single:>CELL$} {double:>CELL$}",
+                    width = QUANTITY - 2
+                );
+                writeln!(f, "{}", line.trim_end())?;
+                for line in lines {
+                    writeln!(f, "    {line}")?;
+                }
+            }
+            writeln!(f)?;
+        }
+        let [holds, fails, limits] =
+            [Verdict::Holds, Verdict::Deviates, Verdict::Limit].map(|verdict| self.count(verdict));
+        writeln!(
+            f,
+            "{holds} figures hold, {fails} fail, {limits} are beyond the precision (limit: told, not judged)."
+        )
+    }
+}
+
+/// The figures with both precisions in a row, where quantity and law are the
+/// same.
+fn rows(figures: &[Figure]) -> Vec<(&str, &str, [Option<&Figure>; 2])> {
+    let mut rows: Vec<(&str, &str, [Option<&Figure>; 2])> = Vec::new();
+    for figure in figures {
+        let column = usize::from(figure.precision == Precision::F64);
+        let place = rows.iter().position(|(quantity, law, cells)| {
+            *quantity == figure.quantity && *law == figure.law && cells[column].is_none()
+        });
+        match place {
+            Some(place) => rows[place].2[column] = Some(figure),
+            None => {
+                let mut cells = [None; 2];
+                cells[column] = Some(figure);
+                rows.push((&figure.quantity, &figure.law, cells));
+            }
+        }
+    }
+    rows
+}
+
+/// A text in lines of at most so many letters.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}

@@ -1,0 +1,241 @@
+//! Time reversed: how much of the start comes back.
+
+use super::case::{Case, Curve, Extent, Findings, Studied, Trial, in_epsilon, t3, trial, wide};
+use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
+use super::figure::named;
+use super::{Figure, StudyError};
+use crate::bodies::Bodies;
+use crate::contact::Surface;
+use crate::engine::EventDriven;
+use crate::scene::{Precision, Scene, Sphere, Spheres};
+use crate::study::fit::{Line, mean, mean_square, power};
+use crate::surroundings::{Cuboid, Plane, Space};
+
+pub(super) const CASE: Case = Case {
+    name: "reversal",
+    title: "to a time and back, with all velocities and spins reversed",
+    law: "In a chaotic gas the error of the start that comes back is ε e^(λc), c collisions of \
+          each body one way: λ is the gas's own, the same in both precisions to a sixth, and what \
+          comes back is good to 1 % of a diameter up to c = ln(.01/ε)/λ, less the five that the error \
+          takes to find its direction. λ is about .8 (N = 500, density .5, an independent program). A \
+          regular scene loses no more than a power of the collisions: n^(3/2), as speeds \
+          walk by √n ε.",
+    trials,
+    combine,
+    picture: Some(("reversal", picture)),
+};
+
+fn trials(extent: Extent) -> Vec<Trial> {
+    let mut trials = Vec::new();
+    let bodies = extent.of(500, 108);
+    for kind in [Surface::Smooth, Surface::Rough] {
+        for seed in 0..extent.of(4, 1) {
+            trials.extend([chaotic::<f32>(kind, bodies, seed), chaotic::<f64>(kind, bodies, seed)]);
+        }
+    }
+    let bounces = extent.of(1 << 20, 1 << 14);
+    for kind in [Surface::Smooth, Surface::Rough] {
+        trials.extend([regular::<f32>(kind, bounces), regular::<f64>(kind, bounces)]);
+    }
+    trials
+}
+
+fn kind(surface: Surface) -> &'static str {
+    if surface == Surface::Rough { "rough" } else { "smooth" }
+}
+
+/// A fluid, to ever greater numbers of collisions of each body and back.
+fn chaotic<T: Studied>(surface: Surface, bodies: u64, seed: u64) -> Trial {
+    let most = if T::PRECISION == Precision::F32 { 32 } else { 64 };
+    let name = format!("{} gas", kind(surface));
+    trial::<T, Findings>(format!("{name}, {seed}"), 2e-3 * bodies as f64, move || {
+        let spin = if surface == Surface::Rough { 1.0 } else { 0.0 };
+        let spheres = Spheres::fcc(bodies)
+            .number_density(0.5)
+            .radius(0.5)
+            .temperature(1.0)
+            .spin_temperature(spin)
+            .seed(seed);
+        let scene =
+            Scene::<T>::builder().surface(surface).periodic_cube().spheres(spheres).build()?;
+        // The lattice melts first.
+        let mut world = EventDriven::new(scene.clone())?;
+        world.advance_until(20 * bodies / 2, 1e9)?;
+        let molten = Scene { bodies: world.bodies(), ..scene };
+        let mut points = Vec::new();
+        for c in (2..=most).step_by(2) {
+            points.push((c as f64, way_off(&molten, c * bodies / 2)?));
+        }
+        let curve = Curve::new(T::PRECISION, name.clone(), points);
+        Ok(Findings { figures: Vec::new(), curves: vec![curve] })
+    })
+}
+
+/// A ball in a box, whose three directions know nothing of each other; a rough one
+/// only bounces between two planes.
+fn regular<T: Studied>(surface: Surface, bounces: u64) -> Trial {
+    let name = match surface {
+        Surface::Smooth => "a ball in a box",
+        Surface::Rough => "a superball",
+    };
+    trial::<T, Findings>(name, 1.3e-6 * bounces as f64, move || {
+        let ball = Sphere::new([1.0, 1.25, 0.75]).radius(0.5);
+        let builder = Scene::<T>::builder()
+            .surface(surface)
+            .sphere(ball.velocity([0.6180339, 0.4142135, 1.0]));
+        let scene = match surface {
+            Surface::Smooth => builder.surroundings(Cuboid::container(t3([0.0; 3]), t3([3.0; 3]))),
+            Surface::Rough => builder
+                .surroundings(Plane::new(t3([0.0; 3]), t3([0.0, 0.0, 1.0])))
+                .surroundings(Plane::new(t3([0.0, 0.0, 3.0]), t3([0.0, 0.0, -1.0]))),
+        };
+        let scene = scene.build()?;
+        let mut points = Vec::new();
+        let mut n = 16;
+        while n <= bounces {
+            points.push((n as f64, way_off(&scene, n)?));
+            n *= 4;
+        }
+        let growth = power(&points).map_or(f64::NAN, |order| order.value);
+        let size = |&(n, off): &(f64, f64)| in_epsilon::<T>(off) / n.powf(1.5);
+        let worst = super::case::greatest(points.iter().map(size));
+        let figures = vec![
+            Figure::at_most(T::PRECISION, format!("start off, {name}"), worst, 8.0, "n√n ε"),
+            Figure::at_most(T::PRECISION, format!("grows as n to the, {name}"), growth, 1.6, ""),
+        ];
+        let curve = Curve::new(T::PRECISION, name.to_owned(), points);
+        Ok(Findings { figures, curves: vec![curve] })
+    })
+}
+
+/// How far off the start is, root mean square over the bodies, after so many
+/// collisions in all and as long back, length.
+fn way_off<T: Studied>(scene: &Scene<T>, collisions: u64) -> Result<f64, StudyError> {
+    let mut world = EventDriven::new(scene.clone())?;
+    world.advance_until(collisions, 1e9)?;
+    // Nothing happens just now.
+    let time = world.time() * (1.0 + 1e-6);
+    world.advance(time - world.time())?;
+    let mut back = Scene::<T>::builder().surface(scene.surface).gravity(scene.gravity);
+    if let Some(space) = scene.periodic {
+        back = back.periodic(space);
+    }
+    for &shape in &scene.surroundings {
+        back = back.surroundings(shape);
+    }
+    let mut world = EventDriven::new(back.bodies(reversed(world.bodies())).build()?)?;
+    world.advance(time)?;
+    let end = world.bodies();
+    let off = (0..end.len()).map(|k| {
+        let offset = end.position_of(k) - scene.bodies.position_of(k);
+        wide(scene.periodic.map_or(offset, |space| space.nearest(offset))).length()
+    });
+    Ok(mean_square(off).sqrt())
+}
+
+/// Bodies with their motion reversed.
+fn reversed<T: Studied>(mut bodies: Bodies<T>) -> Bodies<T> {
+    for column in bodies.velocity.iter_mut().chain(&mut bodies.spin) {
+        column.iter_mut().for_each(|value| *value = -*value);
+    }
+    bodies
+}
+
+/// The mean of the logarithms over all starts, and what it grows by.
+fn combine(trials: Vec<Findings>) -> Findings {
+    let found = Findings::joined(trials);
+    let mut all = Findings { figures: Vec::new(), curves: Vec::new() };
+    for surface in [Surface::Smooth, Surface::Rough] {
+        let name = format!("{} gas", kind(surface));
+        let curves = [Precision::F32, Precision::F64].map(|precision| {
+            let is_one = |curve: &&Curve| curve.precision == precision && curve.name == name;
+            let runs: Vec<&Curve> = found.curves.iter().filter(is_one).collect();
+            Curve::new(precision, name.clone(), mean_curve(&runs))
+        });
+        all.figures.extend(judged(&name, &curves));
+        all.curves.extend(curves);
+    }
+    all.figures.extend(found.figures);
+    all.curves.extend(found.curves.into_iter().filter(|curve| !curve.name.ends_with("gas")));
+    all
+}
+
+fn mean_curve(runs: &[&Curve]) -> Vec<(f64, f64)> {
+    let Some(first) = runs.first() else { return Vec::new() };
+    let at = |(k, &(c, _)): (usize, &(f64, f64))| {
+        let logarithms: Vec<f64> =
+            runs.iter().filter_map(|run| run.points.get(k)).map(|point| point.1.ln()).collect();
+        (c, mean(&logarithms).exp())
+    };
+    first.points.iter().enumerate().map(at).collect()
+}
+
+fn judged(name: &str, curves: &[Curve; 2]) -> Vec<Figure> {
+    let rates = curves.each_ref().map(|curve| {
+        let epsilon = match curve.precision {
+            Precision::F32 => f64::from(f32::EPSILON),
+            Precision::F64 => f64::EPSILON,
+        };
+        // Where the error has found its direction, up to where it is no longer
+        // small.
+        let is_grown =
+            |point: &&(f64, f64)| point.0 >= 6.0 && point.1 > 1e2 * epsilon && point.1 < 1e-2;
+        let points: Vec<_> =
+            curve.points.iter().filter(is_grown).map(|(c, off)| (*c, off.ln())).collect();
+        let rate = Line::through(&points).map_or(f64::NAN, |line| line.slope.value);
+        // From where on less than a hundredth of a diameter does not come back.
+        let end = curve.points.iter().take_while(|point| point.1 < 1e-2).last();
+        (rate, end.map_or(f64::NAN, |point| point.0), (1e-2 / epsilon).ln())
+    });
+    let mean_rate = 0.5 * (rates[0].0 + rates[1].0);
+    let judged = curves.iter().zip(rates).flat_map(|(curve, (rate, end, digits))| {
+        let is = curve.precision;
+        [
+            Figure::near(is, format!("λ, {name}"), rate, 0.8, 0.25, ""),
+            Figure::near(
+                is,
+                format!("λ over that of both, {name}"),
+                rate / mean_rate,
+                1.0,
+                1.0 / 6.0,
+                "",
+            ),
+            Figure::near(
+                is,
+                format!("c for 1 % over ln(.01/ε)/λ, {name}"),
+                end / (digits / mean_rate),
+                0.85,
+                0.25,
+                "",
+            ),
+        ]
+    });
+    judged.collect()
+}
+
+/// The error against the collisions, of the gases and of the regular scenes.
+fn picture(curves: &[Curve]) -> Picture {
+    let chart = |title: &str, x: Axis, is_shown: &dyn Fn(&Curve) -> bool| {
+        let shown = curves.iter().filter(|curve| is_shown(curve));
+        let series = shown.enumerate().map(|(k, curve)| Series {
+            name: format!("{}, {}", curve.name, named(curve.precision)),
+            color: Some(k),
+            mark: Mark::LineAndDiscs,
+            points: curve.points.clone(),
+        });
+        Chart {
+            title: title.to_owned(),
+            x,
+            y: Axis::new("error of the start, diameters", Scale::Logarithmic),
+            series: series.collect(),
+        }
+    };
+    let gases = Axis::new("collisions of each body, one way", Scale::Linear);
+    let others = Axis::new("collisions, one way", Scale::Logarithmic);
+    Picture {
+        charts: vec![
+            chart("chaotic", gases, &|curve| curve.name.ends_with("gas")),
+            chart("regular", others, &|curve| !curve.name.ends_with("gas")),
+        ],
+    }
+}
