@@ -40,6 +40,7 @@
 //! | [`contact`] | impulses and the time of contact |
 //! | [`observe`] | energy, momentum, temperature, pressure, the state hash |
 //! | [`output`] | events, states and the summary |
+//! | [`study`] | run time against error, precision, stability, scaling |
 //!
 //! Under all of them are the numbers: [`real`] (the precisions), [`lane`]
 //! (several reals at once), [`vec3`], [`mat3`], [`trigonometry`] and
@@ -85,8 +86,8 @@
 //!
 //! The feature `program`, a default, builds the program and with it the feature
 //! `study`: the [studies](study) and the [double-double](DoubleDouble). A
-//! program of yours that only moves spheres builds in a third of the time with
-//! `default-features = false`. The crate has no unsafe code
+//! program of yours that only moves spheres takes `default-features = false`: 48
+//! crates instead of 134. The crate has no unsafe code
 //! (`unsafe_code = "forbid"`). User input gives errors, not panics.
 //!
 //! The instructions are chosen when the crate is compiled. Without flags that

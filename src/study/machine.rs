@@ -65,7 +65,7 @@ impl fmt::Display for Machine {
         let Self { processor, threads, memory, system, architecture, instructions, carom } = self;
         write!(
             f,
-            "{processor}, {threads} threads, {:.0} GB, {system}; carom {carom} for {architecture}",
+            "{processor}, {threads} threads, {:.0} GB, {system}\ncarom {carom} for {architecture}",
             *memory as f64 * 1e-9
         )?;
         if !instructions.is_empty() {

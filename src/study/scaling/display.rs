@@ -13,7 +13,7 @@ impl fmt::Display for Report {
             EngineKind::EventDriven => "event-driven",
         };
         writeln!(f, "{}: time and memory against size, {engine} engine", self.subject.name)?;
-        for line in self.machine.to_string().split("; ") {
+        for line in self.machine.to_string().lines() {
             writeln!(f, "{line}")?;
         }
         writeln!(f, "\n{}", self.times())?;
