@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use super::conclusions::{Judged, Motion, Order, advice, orders, pareto_front, size};
+use super::conclusions::{
+    Found, Judged, Motion, Order, Theory, advice, orders, pareto_front, size,
+};
 use super::measure::{Moment, Outcome};
 use super::method::Family;
 use super::quantity::Quantity;
@@ -109,6 +111,7 @@ impl Report {
                 self.time
             ));
         }
+        notes.extend(self.explanations());
         if self.results(self.judged, self.quantity).is_empty() {
             notes.push(
                 "Every trajectory is lost at every one of the times: only energy and averages \
@@ -118,6 +121,35 @@ impl Report {
         }
         notes.push("All lanes and threads gave the same bits.".to_owned());
         self.notes.append(&mut notes);
+    }
+
+    /// Why orders of the position are not those of theory, where they are not.
+    fn explanations(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        let orders = self.orders.iter().filter(|(quantity, _)| *quantity == Quantity::Position);
+        let orders: Vec<&Order> = orders.flat_map(|(_, orders)| orders).collect();
+        let is_below = |order: &&Order| {
+            let Found::Power(power) = order.found else { return false };
+            order.theory == Theory::First && power.value + 3.0 * power.error < 1.0
+        };
+        if orders.iter().any(|order| is_below(order)) {
+            notes.push(
+                "An order below 1: the mean square is that of the few spheres that met another one \
+                 than they should. Their number has order 1, so the root of the mean has order ½."
+                    .to_owned(),
+            );
+        }
+        let is_inexact = |order: &&Order| {
+            order.theory == Theory::Exact && matches!(order.found, Found::Power(_))
+        };
+        if orders.iter().any(|order| is_inexact(order)) {
+            notes.push(
+                "An error where theory has none: in long steps impacts of three spheres can take \
+                 effect out of order. Shorter steps have none of them."
+                    .to_owned(),
+            );
+        }
+        notes
     }
 
     /// Whether a trajectory is lost.
