@@ -132,7 +132,7 @@ impl Report {
             let Found::Power(power) = order.found else { return false };
             order.theory == Theory::First && power.value + 3.0 * power.error < 1.0
         };
-        if orders.iter().any(|order| is_below(order)) {
+        if orders.iter().any(is_below) {
             notes.push(
                 "An order below 1: the mean square is that of the few spheres that met another one \
                  than they should. Their number has order 1, so the root of the mean has order ½."
@@ -142,7 +142,7 @@ impl Report {
         let is_inexact = |order: &&Order| {
             order.theory == Theory::Exact && matches!(order.found, Found::Power(_))
         };
-        if orders.iter().any(|order| is_inexact(order)) {
+        if orders.iter().any(is_inexact) {
             notes.push(
                 "An error where theory has none: in long steps impacts of three spheres can take \
                  effect out of order. Shorter steps have none of them."
