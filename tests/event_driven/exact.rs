@@ -134,6 +134,28 @@ fn bouncing_ball() {
     }
 }
 
+/// A ball that comes down just after a whole time, when the engine begins to
+/// count time anew: it is not taken for one that has just bounced off.
+#[test]
+fn bounces_near_whole_times() {
+    fn bounce<T: Real>() {
+        for k in -40..=40 {
+            // Down after 16, 48, 80 … and a little.
+            let height = 128.5 + f64::from(128 * k) * T::EPSILON.to_f64();
+            let scene = builder::<T>()
+                .gravity(t3([0.0, 0.0, -1.0]))
+                .surroundings(floor())
+                .sphere(Sphere::new([1000.0, 0.0, height]).radius(0.5));
+            let mut world = world(scene.build().unwrap());
+            world.advance(2048.0).unwrap();
+            assert_eq!(world.collisions().surroundings, 64, "{} {k}", T::NAME);
+            assert!(world.bodies().position_of(0).z > T::ZERO, "{} {k}", T::NAME);
+        }
+    }
+    bounce::<f32>();
+    bounce::<f64>();
+}
+
 /// Parabolas against a fixed sphere, together of radius 1, in rationals.
 #[test]
 fn parabolas_meet_a_sphere_at_the_exact_time() {

@@ -180,11 +180,15 @@ impl<'a, T: Real> Reference<'a, T> {
         let nearby = self.at(ball, self.now).0 - middle;
         let times = self.images(nearby).filter_map(|shift| {
             let center = ball.position - shift;
-            let gap = feature.clearance(center, ball.radius).gap.abs();
+            let clearance = feature.clearance(center, ball.radius);
+            let gap = clearance.gap.abs();
+            // Of a flight that starts with the period the last contact is past.
+            let closes = ball.since == T::ZERO && clearance.arm.dot(ball.velocity) < T::ZERO;
             let farthest = center.to_array().map(T::abs).into_iter().fold(T::ZERO, T::greater);
             let rounding = T::whole(64) * T::EPSILON * farthest;
             let near = (self.spacing * T::ratio(1, 1024)).greater(rounding);
-            let is_leaving = is_last && (self.scene.periodic.is_none() || gap < near);
+            let is_near = self.scene.periodic.is_none() || gap < near;
+            let is_leaving = is_last && is_near && !closes;
             feature.contact_time(center, ball.velocity, acceleration, ball.radius, is_leaving)
         });
         times.reduce(T::lesser).map(|wait| ball.since + wait)

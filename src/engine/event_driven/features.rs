@@ -2,6 +2,7 @@
 
 use super::EventDriven;
 use super::agenda::{Expected, PartnerCode};
+use super::flight::Flight;
 use super::near::Image;
 use crate::contact::greatest_component;
 use crate::real::Real;
@@ -39,8 +40,11 @@ impl<T: Real> EventDriven<T> {
         }
         let feature = &self.features[feature as usize];
         // In a periodic box it has left one image only.
+        // A flight that starts with the period may as well end there: one that
+        // closes does not come from the contact, it comes back to it.
         let is_leaving = self.marks[at].last == partner
-            && (self.periodic.is_none() || self.has_just_left(feature, center, flight.radius));
+            && (self.periodic.is_none() || self.has_just_left(feature, center, flight.radius))
+            && (flight.since > T::ZERO || !is_closing(feature, &flight, center));
         let acceleration = self.plan.has_field.then_some(self.gravity);
         let wait =
             feature.contact_time(center, flight.velocity, acceleration, flight.radius, is_leaving);
@@ -56,4 +60,9 @@ impl<T: Real> EventDriven<T> {
         let near = (self.spacing * T::ratio(1, 1024)).greater(rounding);
         feature.clearance(center, radius).gap.abs() < near
     }
+}
+
+/// Whether a sphere approaches a feature.
+fn is_closing<T: Real>(feature: &Feature<T>, flight: &Flight<T>, center: Vec3<T>) -> bool {
+    feature.clearance(center, flight.radius).arm.dot(flight.velocity) < T::ZERO
 }

@@ -198,3 +198,11 @@ pub(super) fn named(precision: Precision) -> &'static str {
         Precision::F64 => "f64",
     }
 }
+
+/// Distance from 1 to the next greater number.
+pub(super) fn epsilon(precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => f64::from(f32::EPSILON),
+        Precision::F64 => f64::EPSILON,
+    }
+}

@@ -35,6 +35,13 @@ const FAST: f64 = 4.0;
 /// it is 2 to 4, root mean square, for a fluid of equal spheres.
 pub(super) const WALK: f64 = 12.0;
 
+/// Whether the sum of 1 and this part rounds to one side again and again, in
+/// whatever units: the part is some roundings of the sum, or less than one. Where
+/// it is less than a thousandth of one, what it leaves out no longer matters.
+pub(super) fn rounds_alike<T: Studied>(part: f64) -> bool {
+    (1e-3..1e3).contains(&(part / T::EPSILON.to_f64()))
+}
+
 /// How often one looks for overlaps.
 const LOOKS: u64 = 16;
 

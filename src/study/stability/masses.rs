@@ -83,7 +83,7 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
             let name = |what: &str| format!("{what} of a {kind} gas, {ten}");
             let energy =
                 Figure::at_most(T::PRECISION, name("energy"), kept.energy, gas::WALK, "√n ε");
-            figures.push(energy.beyond_precision_if(rounds_alike::<T>(power)));
+            figures.push(energy.beyond_precision_if(gas::rounds_alike::<T>(10.0_f64.powi(-power))));
             figures.push(Figure::at_most(
                 T::PRECISION,
                 name("momentum"),
@@ -94,14 +94,6 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
         }
         Ok(figures)
     })
-}
-
-/// Whether `1/m + 1/M` always rounds alike, whatever both are multiplied by: the
-/// lesser is some roundings of the greater, or a part of one. Where it is less
-/// than a thousandth of one, what that leaves out no longer matters.
-fn rounds_alike<T: Studied>(power: i32) -> bool {
-    let roundings = 10.0_f64.powi(-power) / T::EPSILON.to_f64();
-    (1e-3..1e3).contains(&roundings)
 }
 
 /// As many light spheres as heavy ones.
