@@ -1,7 +1,29 @@
 //! Studies: what a method costs, and how far off it is.
 //!
-//! A study is made of [points](Point), whose results go into a
-//! [journal](Journal) as soon as they are there.
+//! | study | what it tells |
+//! |---|---|
+//! | [`work_precision`] | run time against error of engines, integrators, impacts, steps, precisions |
+//! | [`precision`] | what a scene loses in `f32` and `f64`, beside double-double |
+//! | [`stability`] | what holds under stress, each law judged |
+//! | [`scaling`] | time and memory against size, threads and lanes |
+//!
+//! A study is made of [points](Point), whose results go into the [`Journal`] of a
+//! [`Folder`] as soon as they are there: an interrupted study goes on where it
+//! was. Nobody has to have a folder:
+//!
+//! ```
+//! use carom::scene::SceneFile;
+//! use carom::study::Journal;
+//! use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
+//!
+//! let file = SceneFile::builtin("superball").ok_or("no such scene")?;
+//! let asked = Asked { duration: Some(2.0), runs: Some(1), ..Asked::default() };
+//! let study = WorkPrecision::new(&file, &asked)?;
+//! let report = study.measure(&Journal::unwritten(), Quantity::Position, &())?;
+//! let (_, best) = report.advice.last().ok_or("no method")?;
+//! assert!(best.error < 1e-13);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod chart;
 pub mod clock;

@@ -130,7 +130,9 @@ impl Report {
         let orders: Vec<&Order> = orders.flat_map(|(_, orders)| orders).collect();
         let is_below = |order: &&Order| {
             let Found::Power(power) = order.found else { return false };
-            order.theory == Theory::First && power.value + 3.0 * power.error < 1.0
+            order.theory == Theory::First
+                && power.value < 0.75
+                && power.value + 3.0 * power.error < 1.0
         };
         if orders.iter().any(is_below) {
             notes.push(
