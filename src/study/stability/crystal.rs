@@ -18,7 +18,9 @@ pub(super) const CASE: Case = Case {
           place in the lattice. Pressure by free volume, Z = 3/a + 2.566 + .55 a, a = √2/ρ − 1 \
           (Alder, Hoover and Young 1968), to 1 %. Energy and momentum walk by less than 12 √n ε of \
           one body's share; overlaps are 4 δ at most, the rounding of a place and of the time. Where gaps of a/3 are less than 32 \
-          roundings of a place, the precision cannot hold it.",
+          roundings of a place, the precision cannot hold it. Normals lie in planes of the lattice to \
+          within a: where a² is within three decades of ε, the least of the squares in x·x is lost \
+          again and again, and the energy drifts.",
     trials,
     combine: Findings::joined,
     picture: None,

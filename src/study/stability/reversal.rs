@@ -26,9 +26,9 @@ pub(super) const CASE: Case = Case {
 
 fn trials(extent: Extent) -> Vec<Trial> {
     let mut trials = Vec::new();
-    let bodies = extent.of(500, 108);
+    let bodies = extent.of(500, 256);
     for kind in [Surface::Smooth, Surface::Rough] {
-        for seed in 0..extent.of(8, 2) {
+        for seed in 0..extent.of(8, 6) {
             trials.extend([chaotic::<f32>(kind, bodies, seed), chaotic::<f64>(kind, bodies, seed)]);
         }
     }
