@@ -12,6 +12,10 @@ use crate::real::{DoubleDouble, Real};
 use crate::surroundings::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
+/// A trajectory is lost where bodies are off by this part of the greatest radius:
+/// it is chance then who meets whom next.
+pub const LOST: f64 = 0.1;
+
 /// What a state should be: that of a world of a finer precision.
 #[derive(Clone, Debug)]
 pub struct Truth<T: Real = DoubleDouble> {

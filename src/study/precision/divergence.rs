@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::order::Departures;
 use super::side_by_side::{Comparison, SideBySide};
 use crate::real::{DoubleDouble, Real};
+use crate::study::deviation::LOST;
 use crate::study::fit::{Estimate, Line};
 
 /// A point of a run.
@@ -70,7 +71,7 @@ impl Threshold {
     #[must_use]
     pub fn of(side_by_side: &SideBySide) -> Self {
         if side_by_side.radius > 0.0 {
-            Self { distance: 0.1 * side_by_side.radius, what: "a tenth of the greatest radius" }
+            Self { distance: LOST * side_by_side.radius, what: "a tenth of the greatest radius" }
         } else {
             Self {
                 distance: 0.01 * side_by_side.extent,

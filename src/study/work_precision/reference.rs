@@ -5,7 +5,7 @@ use crate::engine::{Execution, World};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::StudyError;
-use crate::study::deviation::{Deviation, Truth};
+use crate::study::deviation::{Deviation, LOST, Truth};
 
 use super::method::Method;
 
@@ -136,8 +136,7 @@ pub(super) fn length_scale<T: Real>(scene: &Scene<T>) -> f64 {
     if greatest > 0.0 { greatest } else { 1.0 }
 }
 
-/// Whether trajectories are lost: where bodies are off by a tenth of a radius,
-/// it is chance who meets whom next.
+/// Whether trajectories are lost.
 pub(super) fn is_lost(deviation: &Deviation, length: f64) -> bool {
-    deviation.position > 0.1 * length
+    deviation.position > LOST * length
 }
