@@ -132,7 +132,7 @@ impl WorkPrecision {
     ) -> Result<Report, StudyError> {
         let Self { file, sweep, .. } = self;
         let end = sweep.times.last().copied().unwrap_or(0.0);
-        let keys: Vec<String> = sweep.methods.iter().map(Method::to_string).collect();
+        let keys: Vec<String> = sweep.methods.iter().map(Method::key).collect();
         let mut is_ahead = false;
         for key in &keys {
             is_ahead |= journal.result::<serde_json::Value>(key)?.is_none();

@@ -212,3 +212,43 @@ fn what_is_not_possible_is_said() {
     assert!(refused(Asked { steps: vec![-1.0], ..quick() }).contains("steps: -1"));
     assert!(refused(Asked { times: vec![f64::NAN], ..quick() }).contains("NaN"));
 }
+
+#[test]
+fn a_scene_beyond_f32_is_studied_in_f64() {
+    // Two balls a millimetre apart, as far from the origin as the sun.
+    let far = r#"
+duration = 1.0
+
+[stepped]
+dt = 0.01
+
+[[spheres]]
+position = [1.5e11, 0.0, 0.0]
+velocity = [1.0, 0.0, 0.0]
+radius = 0.5
+
+[[spheres]]
+position = [1.50000000001001e11, 0.0, 0.0]
+radius = 0.5
+"#;
+    let asked = Asked { precisions: vec![Precision::F64], ..quick() };
+    let report = study(&scene(far), &asked);
+    assert!(report.outcomes.iter().all(|outcome| outcome.moments.len() == 8));
+    let both = WorkPrecision::new(&scene(far), &quick()).unwrap();
+    let refused = both.measure(&Journal::unwritten(), Quantity::Position, &()).unwrap_err();
+    assert!(refused.to_string().contains("overlap"), "{refused}");
+}
+
+#[test]
+fn steps_that_look_alike_are_two() {
+    let steps = vec![0.01, 0.010_000_001];
+    let asked = Asked { steps, precisions: vec![Precision::F64], ..quick() };
+    let file = scene(THROW);
+    let study = WorkPrecision::new(&file, &asked).unwrap();
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = Folder::open(temporary.path()).unwrap();
+    let journal = folder.journal(study.sweep()).unwrap();
+    study.measure(&journal, Quantity::Position, &()).unwrap();
+    drop(journal);
+    assert_eq!(folder.journal(study.sweep()).unwrap().len(), study.sweep().methods.len());
+}

@@ -46,6 +46,14 @@ impl Method {
         Family { precision: self.precision, stepping }
     }
 
+    /// What its point is called: with all digits of its step.
+    pub(super) fn key(&self) -> String {
+        match self.stepping {
+            None => self.family().to_string(),
+            Some(Stepping { dt, .. }) => format!("{}, Δt {dt:e}", self.family()),
+        }
+    }
+
     /// A scene that is moved in this way up to a time. `T` has to be the
     /// method's own precision, or the reference's.
     pub(super) fn scene<T: Real>(

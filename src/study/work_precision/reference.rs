@@ -95,7 +95,8 @@ impl Horizon {
     /// Of a scene that is run up to a time.
     pub(super) fn of(file: &SceneFile, end: f64) -> Result<Self, StudyError> {
         let mut fine = Run::<f64>::new(EXACT.scene(file, end)?)?;
-        let mut coarse = Run::<f32>::new(EXACT.scene(file, end)?)?;
+        // A scene may be beyond `f32`: its methods will say so.
+        let mut coarse = EXACT.scene(file, end).ok().and_then(|scene| Run::<f32>::new(scene).ok());
         let mut horizon = Self { end, f32_lost: None, collisions: 0, speed: 0.0 };
         let length = length_scale(&fine.scene);
         for look in 0..=LOOKS {
@@ -106,7 +107,12 @@ impl Horizon {
             let speed = (squares.sum::<f64>() / bodies.len() as f64).sqrt();
             horizon.speed = horizon.speed.max(speed);
             horizon.collisions = fine.world.collisions().total();
-            let deviation = truth.deviation(&coarse.truth_at(time)?.bodies);
+            let Some(run) = &mut coarse else { continue };
+            let Ok(state) = run.truth_at(time) else {
+                coarse = None;
+                continue;
+            };
+            let deviation = truth.deviation(&state.bodies);
             if horizon.collisions > 0 && is_lost(&deviation, length) {
                 horizon.f32_lost = Some(time);
                 horizon.end = end.min(time * PART);
