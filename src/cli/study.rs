@@ -38,7 +38,7 @@ Examples:
     /// The stress suite: extremes and long runs against the laws that should hold.
     ///
     /// Each case has a law, from a known solution or from theory, and is measured
-    /// and judged in f32 and f64. All of it takes some 20 minutes on two cores.
+    /// and judged in f32 and f64. All of it takes about ten minutes on two cores.
     #[command(after_help = "\
 Examples:
   carom study stability                    all cases

@@ -14,7 +14,7 @@ use crate::vec3::Vec3;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Extent {
-    /// What the laws ask for: some 20 minutes on two cores.
+    /// What the laws ask for: about ten minutes on two cores.
     Full,
     /// About a hundredth of it, to see that everything works.
     Quick,
