@@ -134,7 +134,11 @@ impl Report {
                 && power.value < 0.75
                 && power.value + 3.0 * power.error < 1.0
         };
-        if orders.iter().any(is_below) {
+        let mut deviations = self.outcomes.iter().flat_map(|outcome| {
+            outcome.moments.get(self.judged).and_then(|moment| moment.deviation)
+        });
+        let few = deviations.any(|deviation| deviation.position_worst > 8.0 * deviation.position);
+        if few && orders.iter().any(is_below) {
             notes.push(
                 "An order below 1: the mean square is that of the few spheres that met another one \
                  than they should. Their number has order 1, so the root of the mean has order ½."
@@ -146,8 +150,9 @@ impl Report {
         };
         if orders.iter().any(is_inexact) {
             notes.push(
-                "An error where theory has none: in long steps impacts of three spheres can take \
-                 effect out of order. Shorter steps have none of them."
+                "An error where theory has none: in long steps a graze of something fixed can be \
+                 missed, and impacts of three spheres can take effect out of order. Short steps \
+                 have none of it."
                     .to_owned(),
             );
         }
