@@ -178,6 +178,16 @@ impl<T: Real> Bodies<T> {
             + self.inertia.bytes()
     }
 
+    /// Multiplies all velocities, of centres and angular ones, by a factor: −1
+    /// turns the motion back.
+    pub fn scale_motion(&mut self, factor: T) {
+        for column in self.velocity.iter_mut().chain(&mut self.spin) {
+            for value in column.iter_mut() {
+                *value = *value * factor;
+            }
+        }
+    }
+
     /// Centre of body `index`.
     #[must_use]
     pub fn position_of(&self, index: usize) -> Vec3<T> {

@@ -71,17 +71,28 @@ pub enum Lanes {
     Sixteen,
 }
 
-impl fmt::Display for Lanes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Lanes {
+    /// What the program calls it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
             Self::Auto => "auto",
             Self::Scalar => "scalar",
             Self::Four => "4",
             Self::Eight => "8",
             Self::Sixteen => "16",
-        })
+        }
     }
 }
+
+impl fmt::Display for Lanes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The most worker threads that the program and the studies ask for.
+pub const MOST_THREADS: usize = 1024;
 
 /// On what a scene is run; it changes no bit of the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -106,6 +117,12 @@ impl Collisions {
     #[must_use]
     pub fn total(&self) -> u64 {
         self.pairs + self.surroundings
+    }
+
+    /// The ends of flights: a collision of two bodies ends two.
+    #[must_use]
+    pub fn ends(&self) -> u64 {
+        2 * self.pairs + self.surroundings
     }
 }
 

@@ -55,6 +55,6 @@ pub fn total_mass<T: Real>(bodies: &Bodies<T>) -> f64 {
 }
 
 /// A vector in `f64`.
-fn wide<T: Real>(vector: Vec3<T>) -> Vec3<f64> {
+pub(crate) fn wide<T: Real>(vector: Vec3<T>) -> Vec3<f64> {
     Vec3::new(vector.x.to_f64(), vector.y.to_f64(), vector.z.to_f64())
 }

@@ -78,12 +78,29 @@ pub enum Precision {
     F64,
 }
 
-impl fmt::Display for Precision {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl Precision {
+    /// What the scene file and the summary call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
             Self::F32 => f32::NAME,
             Self::F64 => f64::NAME,
-        })
+        }
+    }
+
+    /// Distance from 1 to the next greater number.
+    #[must_use]
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Self::F32 => f64::from(f32::EPSILON),
+            Self::F64 => f64::EPSILON,
+        }
+    }
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
     }
 }
 

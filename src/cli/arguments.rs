@@ -2,15 +2,12 @@
 
 use std::path::PathBuf;
 
-use carom::engine::{EngineKind, Execution, Lanes};
+use carom::engine::{EngineKind, Execution, Lanes, MOST_THREADS};
 use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
 use super::study::Study;
-
-/// The most worker threads that can be asked for.
-pub const MOST_THREADS: u64 = 1024;
 
 /// Simulates rigid spheres in motion: free flight and elastic collisions,
 /// smooth and rough, with the same bits on every path.
@@ -186,5 +183,5 @@ pub fn positive(text: &str) -> Result<f64, String> {
 
 /// Takes a number of threads.
 pub fn threads() -> clap::builder::RangedU64ValueParser<u64> {
-    clap::value_parser!(u64).range(1..=MOST_THREADS)
+    clap::value_parser!(u64).range(1..=MOST_THREADS as u64)
 }

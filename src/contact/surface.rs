@@ -1,5 +1,7 @@
 //! Surface: what happens to the slip of two surfaces when they meet.
 
+use core::fmt;
+
 use serde::{Deserialize, Serialize};
 
 /// The surfaces of all bodies and surroundings of a scene. Both kinds conserve
@@ -14,4 +16,13 @@ pub enum Surface {
     /// Perfectly rough, `e = β = 1`: a contact reverses the relative velocity
     /// of the surfaces, the tangential part too.
     Rough,
+}
+
+impl fmt::Display for Surface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Smooth => "smooth",
+            Self::Rough => "rough",
+        })
+    }
 }

@@ -4,7 +4,6 @@ use core::fmt;
 
 use super::summary::{Summary, shortest};
 use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
-use crate::contact::Surface;
 use crate::engine::Impact;
 
 /// The labels of a vector's rows.
@@ -33,11 +32,8 @@ impl fmt::Display for Summary {
 
 impl Summary {
     fn heading(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let surface = match self.setup.surface {
-            Surface::Smooth => "smooth",
-            Surface::Rough => "rough",
-        };
-        let spheres = counted(self.setup.bodies as u64, &format!("{surface} sphere"));
+        let kind = format!("{} sphere", self.setup.surface);
+        let spheres = counted(self.setup.bodies as u64, &kind);
         writeln!(f, "{}: {spheres} in {}", self.setup.scene, self.setup.precision)
     }
 

@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::StudyError;
 use super::fit::quantile;
+use crate::engine::{EngineError, World};
+use crate::real::Real;
 
 /// The times of one variant, seconds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,6 +91,28 @@ pub fn rounds(variants: &mut [Variant<'_>], rounds: usize) -> Result<Vec<Timing>
         }
     }
     Ok(runs.into_iter().map(Timing::of).collect())
+}
+
+/// About how many seconds a world takes to the end of a way of this length, by
+/// its first `enough` seconds; the world is then somewhere on the way.
+///
+/// # Errors
+/// If the engine stops.
+pub(super) fn outlook<T: Real>(
+    world: &mut World<T>,
+    length: f64,
+    enough: f64,
+) -> Result<f64, EngineError> {
+    let start = Instant::now();
+    let mut stretch = 1;
+    loop {
+        let is_there = world.advance(length, length, stretch, None)?;
+        let taken = start.elapsed().as_secs_f64();
+        if is_there || taken > enough {
+            return Ok(taken / (world.place() / length).max(1e-9));
+        }
+        stretch *= 2;
+    }
 }
 
 #[cfg(test)]

@@ -95,6 +95,12 @@ impl Journal {
         self.finished.is_empty()
     }
 
+    /// Whether the result of a point was there when the journal was opened.
+    #[must_use]
+    pub fn has(&self, point: &str) -> bool {
+        self.finished.contains_key(point)
+    }
+
     /// The result of a point, if it was there when the journal was opened.
     ///
     /// # Errors

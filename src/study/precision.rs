@@ -129,7 +129,7 @@ impl PrecisionStudy {
         journal: &Journal,
         watch: &dyn Watch,
     ) -> Result<PrecisionReport, StudyError> {
-        let seconds = self.seconds()?;
+        let seconds = self.seconds();
         let mut points = vec![Point::new("side by side", seconds * COST, || {
             let side_by_side = SideBySide::measured(&self.file, self.duration, self.samples)?;
             Ok(Outcome::SideBySide(Box::new(side_by_side)))
@@ -158,12 +158,10 @@ impl PrecisionStudy {
         Ok(Outcome::Run(Track::of::<T>(&self.file, self.duration, self.samples, number)))
     }
 
-    /// Seconds that a run in `f64` should take, from the beginning of one.
-    fn seconds(&self) -> Result<f64, StudyError> {
-        let mut world = match Run::<f64>::new(&self.file, self.duration, self.samples, 0) {
-            Ok(run) => run,
-            Err(_) => return Ok(1.0),
-        };
-        Ok(world.probe(PROBE))
+    /// Seconds that a run in `f64` should take, from the beginning of one; a guess
+    /// for one that stops.
+    fn seconds(&self) -> f64 {
+        let run = Run::<f64>::new(&self.file, self.duration, self.samples, 0);
+        run.and_then(|mut run| run.probe(PROBE)).unwrap_or(1.0)
     }
 }

@@ -29,12 +29,11 @@ use serde::Serialize;
 
 use super::{Journal, Machine, Order, Point, StudyError, Subject, Watch};
 use crate::engine::EngineKind;
-use crate::real::Real;
 use crate::scene::{Precision, SceneFile};
 
 pub use measure::Row;
 pub use report::{Power, Report, SpeedUp};
-pub use settings::{Settings, Variant, lanes_name};
+pub use settings::Settings;
 
 use measure::{Measured, Task};
 
@@ -113,7 +112,7 @@ impl Scaling {
         };
         let points: Vec<Point<'_, Measured>> = tasks()
             .map(|(precision, task)| {
-                let key = format!("{} {} bodies", precision_name(precision), task.bodies);
+                let key = format!("{} {} bodies", precision.name(), task.bodies);
                 Point::new(key, task.seconds(&probe), move || match precision {
                     Precision::F32 => task.measure::<f32>(),
                     Precision::F64 => task.measure::<f64>(),
@@ -133,12 +132,5 @@ impl Scaling {
             variants: self.settings.variants(size),
             runs: self.settings.runs,
         }
-    }
-}
-
-fn precision_name(precision: Precision) -> &'static str {
-    match precision {
-        Precision::F32 => f32::NAME,
-        Precision::F64 => f64::NAME,
     }
 }

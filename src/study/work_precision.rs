@@ -78,9 +78,9 @@ impl WorkPrecision {
         if stated.or(asked.duration).is_some() {
             horizon.end = duration;
         }
-        let sweep = Sweep::new(file, asked, &horizon)?;
         let scene =
             Method { precision: Precision::F64, stepping: None }.scene::<f64>(file, horizon.end)?;
+        let sweep = Sweep::new(file, asked, &horizon, &scene)?;
         let scale = Scale {
             length: length_scale(&scene),
             speed: horizon.speed,
@@ -133,10 +133,7 @@ impl WorkPrecision {
         let Self { file, sweep, .. } = self;
         let end = sweep.times.last().copied().unwrap_or(0.0);
         let keys: Vec<String> = sweep.methods.iter().map(Method::key).collect();
-        let mut is_ahead = false;
-        for key in &keys {
-            is_ahead |= journal.result::<serde_json::Value>(key)?.is_none();
-        }
+        let is_ahead = keys.iter().any(|key| !journal.has(key));
         let mut seconds = vec![0.0; keys.len()];
         let mut reference = None;
         if is_ahead {

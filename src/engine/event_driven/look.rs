@@ -59,7 +59,7 @@ impl<T: Real> EventDriven<T> {
     /// before the first collision. In a field the ways are taken as straight.
     #[must_use]
     pub fn mean_free_path(&self) -> Option<f64> {
-        let ends = 2 * self.collisions.pairs + self.collisions.surroundings;
+        let ends = self.collisions.ends();
         let now = self.now();
         let under_way: CompensatedSum = (0..self.records.len())
             .map(|place| {

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::run::{Sample, Track};
+use super::run::{Sample, Track, finite};
 use super::side_by_side::SideBySide;
 use crate::observe::compressibility;
 use crate::study::fit::{mean, mean_square};
@@ -115,11 +115,6 @@ fn figures(side_by_side: &SideBySide) -> Vec<Figure<'_>> {
         }),
     ));
     figures
-}
-
-/// Of no number there is none.
-fn finite(value: f64) -> Option<f64> {
-    super::run::finite(value)
 }
 
 /// The mean over time, by the trapezoidal rule.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::order::Departures;
 use super::side_by_side::{Comparison, SideBySide};
 use crate::real::{DoubleDouble, Real};
+use crate::scene::Precision;
 use crate::study::deviation::LOST;
 use crate::study::fit::{Estimate, Line};
 
@@ -199,7 +200,7 @@ fn crossing(points: &[(Place, f64)], threshold: f64) -> Option<Place> {
 /// smaller than one in `f64` or `f32` as its ε is, and grows as that one does.
 #[must_use]
 pub fn reference_lost(divergences: &[Divergence; 2], threshold: f64, end: Place) -> Option<Place> {
-    let epsilons = [f32::EPSILON.to_f64(), f64::EPSILON];
+    let epsilons = [Precision::F32, Precision::F64].map(Precision::epsilon);
     let mut found = divergences.iter().zip(epsilons).rev().filter_map(|(divergence, epsilon)| {
         let growth = divergence.growth.filter(|growth| growth.power.is_none())?;
         let smaller = (DoubleDouble::EPSILON.to_f64() / epsilon).ln();

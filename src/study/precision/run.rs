@@ -1,7 +1,5 @@
 //! Run: a scene in one precision, looked at in equal parts of its time.
 
-use std::time::Instant;
-
 use serde::{Deserialize, Serialize};
 
 use super::order::Seen;
@@ -12,6 +10,7 @@ use crate::observe::Temperature;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Encounters, SceneFile};
 use crate::study::StudyError;
+use crate::study::clock::outlook;
 use crate::study::invariants::{Invariants, exact, exact_vector};
 use crate::surroundings::PeriodicBox;
 use crate::vec3::Vec3;
@@ -88,11 +87,7 @@ impl<T: Real> Run<T> {
     ) -> Result<Self, StudyError> {
         let mut scene = file.build::<T>()?;
         let factor = T::ONE + T::whole(number as i32) / T::whole(SPEEDS);
-        for column in scene.bodies.velocity.iter_mut().chain(&mut scene.bodies.spin) {
-            for value in column.iter_mut() {
-                *value = *value * factor;
-            }
-        }
+        scene.bodies.scale_motion(factor);
         scene.gravity = scene.gravity * (factor * factor);
         let gravity = exact_vector(scene.gravity);
         let (periodic, radius) = (scene.periodic, scene.bodies.radius.greatest().to_f64());
@@ -147,7 +142,7 @@ impl<T: Real> Run<T> {
     /// Looks at the bodies, which are those of the world now.
     pub(super) fn sample(&self, bodies: &Bodies<T>) -> Sample {
         let collisions = self.world.collisions();
-        let ends = 2 * collisions.pairs + collisions.surroundings;
+        let ends = collisions.ends();
         let time = self.world.time();
         let mut now = Invariants::of(bodies, self.gravity);
         let given = self.world.impulse_from_surroundings();
@@ -171,18 +166,8 @@ impl<T: Real> Run<T> {
     }
 
     /// Seconds that the whole way should take, from so many of its beginning.
-    pub(super) fn probe(&mut self, longest: f64) -> f64 {
-        let start = Instant::now();
-        let mut stretch = 1;
-        loop {
-            let is_there = self.world.advance(self.length, self.length, stretch, None);
-            let taken = start.elapsed().as_secs_f64();
-            if taken > longest || !matches!(is_there, Ok(false)) {
-                let share = self.world.place() / self.length;
-                return taken / share.max(1e-9);
-            }
-            stretch *= 2;
-        }
+    pub(super) fn probe(&mut self, longest: f64) -> Result<f64, StudyError> {
+        Ok(outlook(&mut self.world, self.length, longest)?)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Report, Row, Settings, SpeedUp, lanes_name};
+use super::{Report, Row, Settings, SpeedUp};
 use crate::engine::{EngineKind, Lanes};
 use crate::output::table::{Table, counted, grouped, rounded};
 
@@ -45,7 +45,7 @@ impl Report {
         }
         if lanes.len() > 1 {
             let base = if lanes.contains(&Lanes::Scalar) { Lanes::Scalar } else { lanes[0] };
-            over.push(format!("lanes over {}", lanes_name(base)));
+            over.push(format!("lanes over {}", base));
         }
         let speed_up = match over.is_empty() {
             true => String::new(),

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Report, Row, lanes_name, precision_name};
+use super::{Report, Row};
 use crate::engine::EngineKind;
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use crate::study::{Folder, StudyError};
@@ -76,7 +76,7 @@ impl Report {
         let mut series = Vec::new();
         for &precision in &self.settings.precisions {
             for &threads in &self.settings.threads {
-                let name = precision_name(precision);
+                let name = precision.name();
                 let rows = self.sweep(name, threads);
                 let plural = if threads == 1 { "" } else { "s" };
                 series.push(Series {
@@ -101,7 +101,7 @@ impl Report {
     fn memory_chart(&self) -> Chart {
         let mut series: Vec<Series> = Vec::new();
         for (color, &precision) in self.settings.precisions.iter().enumerate() {
-            let name = precision_name(precision);
+            let name = precision.name();
             let rows: Vec<&Row> = self.sweep(name, self.settings.threads[0]).collect();
             let per_body =
                 |row: &Row, bytes: u64| (row.bodies as f64, bytes as f64 / row.bodies as f64);
@@ -131,11 +131,10 @@ impl Report {
         let threads = self.settings.threads[0];
         let mut series = Vec::new();
         for (color, &precision) in self.settings.precisions.iter().enumerate() {
-            let name = precision_name(precision);
+            let name = precision.name();
             let Some(rows) = self.points.iter().find(|rows| {
-                rows.iter().any(|row| {
-                    row.precision == name && row.lanes != lanes_name(self.settings.lanes[0])
-                })
+                rows.iter()
+                    .any(|row| row.precision == name && row.lanes != self.settings.lanes[0].name())
             }) else {
                 continue;
             };

@@ -2,9 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::lanes_name;
-use super::settings::Variant;
-use crate::engine::{EngineKind, World};
+use crate::engine::{EngineKind, Execution, World};
 use crate::observe::{Totals, state_hash};
 use crate::real::Real;
 use crate::scene::{Precision, SceneFile};
@@ -58,7 +56,7 @@ pub(super) struct Task<'a> {
     pub bodies: u64,
     /// How long an event-driven world may go without any collision, time.
     pub longest: f64,
-    pub variants: Vec<Variant>,
+    pub variants: Vec<Execution>,
     pub runs: usize,
 }
 
@@ -82,7 +80,7 @@ impl Task<'_> {
 
     fn probed_in<T: Real>(&self) -> Result<Probe, StudyError> {
         let (scene, build) = seconds(|| self.file.build::<T>());
-        let mut world = World::new(scene?, self.variants[0].into())?;
+        let mut world = World::new(scene?, self.variants[0])?;
         let bodies = world.plan().bodies as f64;
         let (_, work) = self.warm_up(&mut world, LEAST_STEPS)?;
         let work = if self.is_stepped() { work / bodies } else { work };
@@ -108,7 +106,7 @@ impl Task<'_> {
     /// Runs all variants.
     pub(super) fn measure<T: Real>(&self) -> Result<Measured, StudyError> {
         let knows_peak = forget_peak();
-        let mut first = World::new(self.file.build::<T>()?, self.variants[0].into())?;
+        let mut first = World::new(self.file.build::<T>()?, self.variants[0])?;
         let bodies = first.plan().bodies as u64;
         let before = match self.file.engine {
             EngineKind::Stepped => LEAST_STEPS,
@@ -125,7 +123,7 @@ impl Task<'_> {
         {
             let scene = self.file.build::<T>()?;
             for &variant in others {
-                let mut world = World::new(scene.clone(), variant.into())?;
+                let mut world = World::new(scene.clone(), variant)?;
                 let (done, time) = seconds(|| self.advance(&mut world, warm));
                 done?;
                 quickest = quickest.min(time / warm as f64);
@@ -156,7 +154,7 @@ impl Task<'_> {
             precision: T::NAME.to_owned(),
             bodies,
             threads: variant.threads,
-            lanes: lanes_name(variant.lanes).to_owned(),
+            lanes: variant.lanes.to_string(),
             work,
             timing,
             bytes: world.bytes() as u64,

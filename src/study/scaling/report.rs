@@ -111,7 +111,7 @@ fn sweep<'a>(
     precision: &'a str,
     threads: usize,
 ) -> impl Iterator<Item = &'a Row> {
-    let lanes = super::lanes_name(settings.lanes[0]);
+    let lanes = settings.lanes[0].name();
     points.iter().flatten().filter(move |row| {
         row.precision == precision && row.threads == threads && row.lanes == lanes
     })
@@ -120,7 +120,7 @@ fn sweep<'a>(
 fn powers(settings: &Settings, points: &[Measured]) -> Vec<Power> {
     let mut powers = Vec::new();
     for &precision in &settings.precisions {
-        let precision = super::precision_name(precision);
+        let precision = precision.name();
         for &threads in &settings.threads {
             let rows = sweep(settings, points, precision, threads);
             // Work is a step or a collision.
@@ -136,7 +136,7 @@ fn powers(settings: &Settings, points: &[Measured]) -> Vec<Power> {
 /// Threads against the first number of them, lanes against the scalar path.
 fn speed_ups(settings: &Settings, rows: &[Row]) -> Vec<SpeedUp> {
     let Some(first) = rows.first() else { return Vec::new() };
-    let base = super::lanes_name(settings.lanes[0]);
+    let base = settings.lanes[0].name();
     let scalar = rows.iter().find(|row| row.lanes == "scalar").unwrap_or(first);
     let by_threads = rows.iter().filter(|row| row.lanes == base && row.threads != first.threads);
     let has_lanes = rows.iter().any(|row| row.lanes != base);

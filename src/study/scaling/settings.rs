@@ -2,14 +2,11 @@
 
 use std::thread::available_parallelism;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use crate::engine::{EngineKind, Execution, Lanes};
+use crate::engine::{EngineKind, Execution, Lanes, MOST_THREADS};
 use crate::scene::{MOST_BODIES, Precision};
 use crate::study::StudyError;
-
-/// The most threads that are asked for.
-const MOST_THREADS: usize = 1024;
 
 /// The most runs of a variant.
 const MOST_RUNS: usize = 10_000;
@@ -43,33 +40,6 @@ impl Default for Settings {
             lanes: vec![Lanes::Auto, Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Sixteen],
             runs: 5,
         }
-    }
-}
-
-/// On what a world is run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Variant {
-    /// Worker threads.
-    pub threads: usize,
-    /// How many reals a kernel works on at once.
-    pub lanes: Lanes,
-}
-
-impl From<Variant> for Execution {
-    fn from(Variant { threads, lanes }: Variant) -> Self {
-        Self { lanes, threads }
-    }
-}
-
-/// What the program calls a choice of lanes.
-#[must_use]
-pub fn lanes_name(lanes: Lanes) -> &'static str {
-    match lanes {
-        Lanes::Auto => "auto",
-        Lanes::Scalar => "scalar",
-        Lanes::Four => "4",
-        Lanes::Eight => "8",
-        Lanes::Sixteen => "16",
     }
 }
 
@@ -110,14 +80,14 @@ impl Settings {
 
     /// What is compared at one of the sizes. The first one is what the others are
     /// compared with.
-    pub(super) fn variants(&self, size: usize) -> Vec<Variant> {
+    pub(super) fn variants(&self, size: usize) -> Vec<Execution> {
         let (threads, lanes) = (self.threads[0], self.lanes[0]);
-        let swept = self.threads.iter().map(|&threads| Variant { threads, lanes });
+        let swept = self.threads.iter().map(|&threads| Execution { threads, lanes });
         let others = match size == (self.bodies.len() - 1) / 2 {
             true => &self.lanes[1..],
             false => &[],
         };
-        swept.chain(others.iter().map(|&lanes| Variant { threads, lanes })).collect()
+        swept.chain(others.iter().map(|&lanes| Execution { threads, lanes })).collect()
     }
 }
 

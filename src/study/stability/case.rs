@@ -51,6 +51,17 @@ impl Curve {
     }
 }
 
+/// A figure of the values that several runs have at each point.
+pub(super) fn at_points(runs: &[&Curve], figure: impl Fn(&[f64]) -> f64) -> Vec<(f64, f64)> {
+    let Some(first) = runs.first() else { return Vec::new() };
+    let at = |(point, &(n, _)): (usize, &(f64, f64))| {
+        let values: Vec<f64> =
+            runs.iter().filter_map(|run| run.points.get(point)).map(|(_, value)| *value).collect();
+        (n, figure(&values))
+    };
+    first.points.iter().enumerate().map(at).collect()
+}
+
 /// What a trial found.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Findings {
@@ -125,11 +136,6 @@ pub(super) fn exact<T: Studied>(value: T) -> T::Judge {
 /// The same vector in the judging precision.
 pub(super) fn exact_vector<T: Studied>(vector: Vec3<T>) -> Vec3<T::Judge> {
     vector.to_array().map(exact).into()
-}
-
-/// A vector in `f64`.
-pub(super) fn wide<T: Real>(vector: Vec3<T>) -> Vec3<f64> {
-    vector.to_array().map(T::to_f64).into()
 }
 
 /// A vector in the studied precision.

@@ -2,14 +2,13 @@
 
 use core::f64::consts::SQRT_2;
 
-use super::case::{Case, Extent, Findings, Studied, Trial, greatest, in_epsilon, trial, wide};
+use super::case::{Case, Extent, Findings, Studied, Trial, greatest, in_epsilon, trial};
 use super::{Figure, gas};
-use crate::bodies::Bodies;
 use crate::engine::EventDriven;
 use crate::observe::{Momentum, Temperature, compressibility};
 use crate::scene::{Scene, Spheres};
 use crate::study::invariants::energy_change;
-use crate::surroundings::{PeriodicBox, Space};
+use crate::surroundings::Space;
 
 pub(super) const CASE: Case = Case {
     name: "crystal",
@@ -59,7 +58,7 @@ fn crystal<T: Studied>(density: f64, collisions: u64) -> Trial {
         for _ in 0..LOOKS {
             world.advance_until(collisions / LOOKS, 1e9)?;
             let now = world.bodies();
-            farthest = greatest([farthest, way_off(&now, &lattice, space)]);
+            farthest = greatest([farthest, greatest(gas::distances(&now, &lattice, space))]);
             let nearest = |offset| space.map_or(offset, |space| space.nearest(offset));
             let depth = gas::overlap(&now, &[], nearest);
             overlap = greatest([overlap, depth / gas::rounding::<T>(side, world.time())]);
@@ -96,12 +95,4 @@ fn crystal<T: Studied>(density: f64, collisions: u64) -> Trial {
             .map(|figure| figure.beyond_precision_if(is_lost))
             .collect::<Vec<_>>())
     })
-}
-
-/// How far the farthest body is from where the lattice has it, length.
-fn way_off<T: Studied>(now: &Bodies<T>, lattice: &Bodies<T>, space: Option<PeriodicBox<T>>) -> f64 {
-    greatest((0..now.len()).map(|k| {
-        let offset = now.position_of(k) - lattice.position_of(k);
-        wide(space.map_or(offset, |space| space.nearest(offset))).length()
-    }))
 }

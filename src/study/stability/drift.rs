@@ -2,7 +2,7 @@
 
 use core::iter;
 
-use super::case::{Case, Curve, Extent, Findings, Studied, Trial, in_epsilon, trial};
+use super::case::{Case, Curve, Extent, Findings, Studied, Trial, at_points, in_epsilon, trial};
 use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use super::{Figure, StudyError};
 use crate::contact::Surface;
@@ -57,8 +57,7 @@ const FLUIDS: [Fluid; 4] = [
 
 impl Fluid {
     fn name(self) -> String {
-        let surface = if self.surface == Surface::Rough { "rough" } else { "smooth" };
-        format!("{surface}, diameter {}", self.diameter)
+        format!("{}, diameter {}", self.surface, self.diameter)
     }
 
     fn scene<T: Studied>(self, seed: u64) -> Result<Scene<T>, StudyError> {
@@ -162,20 +161,6 @@ fn figures(precision: Precision, name: &str, runs: &[&Curve]) -> Vec<Figure> {
     ]
 }
 
-/// A figure of the changes of all runs at each number of collisions.
-fn at_points(runs: &[&Curve], figure: impl Fn(&[f64]) -> f64) -> Vec<(f64, f64)> {
-    let Some(first) = runs.first() else { return Vec::new() };
-    let at = |(point, &(n, _)): (usize, &(f64, f64))| {
-        let changes: Vec<f64> = runs
-            .iter()
-            .filter_map(|run| run.points.get(point))
-            .map(|(_, change)| *change)
-            .collect();
-        (n, figure(&changes))
-    };
-    first.points.iter().enumerate().map(at).collect()
-}
-
 /// A chart for each diameter, in units of the precision's ε, with the two laws
 /// that are to be told apart.
 fn picture(curves: &[Curve]) -> Picture {
@@ -208,9 +193,9 @@ fn picture(curves: &[Curve]) -> Picture {
                 (Precision::F64, false) => 5,
                 (Precision::F64, true) => 0,
             };
-            let surface = if is_rough { "rough" } else { "smooth" };
+            let surface = if is_rough { Surface::Rough } else { Surface::Smooth };
             series.push(Series {
-                name: format!("{}, {surface}", super::figure::named(curve.precision)),
+                name: format!("{}, {surface}", curve.precision),
                 color: Some(color),
                 mark: Mark::Line,
                 points: curve.points.clone(),

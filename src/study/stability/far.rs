@@ -61,13 +61,9 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             for ball in &mut balls {
                 ball.position += Vec3::new(far, far, -far);
             }
-            let scene = pair::scene::<T>(&balls, surface)?;
-            let Some(expected) = pair::expected(&scene) else { continue };
-            let error = match pair::found(scene, 10.0)? {
-                Some(found) => greatest(found.off(&expected)),
-                None => f64::INFINITY,
-            };
-            worst = greatest([worst, error]);
+            if let Some((off, _)) = pair::measured::<T>(&balls, surface, 10.0)? {
+                worst = greatest([worst, greatest(off)]);
+            }
         }
         let off = in_epsilon::<T>(worst) / far.max(3.0);
         Ok(vec![Figure::at_most(T::PRECISION, name, off, 4.0, "ε X")])

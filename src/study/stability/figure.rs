@@ -190,19 +190,3 @@ pub(super) fn number(value: f64) -> String {
         _ => format!("{value:.4}"),
     }
 }
-
-/// What the scene file calls a precision.
-pub(super) fn named(precision: Precision) -> &'static str {
-    match precision {
-        Precision::F32 => "f32",
-        Precision::F64 => "f64",
-    }
-}
-
-/// Distance from 1 to the next greater number.
-pub(super) fn epsilon(precision: Precision) -> f64 {
-    match precision {
-        Precision::F32 => f64::from(f32::EPSILON),
-        Precision::F64 => f64::EPSILON,
-    }
-}

@@ -4,10 +4,10 @@ use super::StudyError;
 use super::case::{Studied, greatest, in_epsilon};
 use crate::bodies::Bodies;
 use crate::engine::EventDriven;
-use crate::observe::{Energy, Momentum, total_mass};
+use crate::observe::{Energy, Momentum, total_mass, wide};
 use crate::scene::Scene;
 use crate::study::invariants::energy_change;
-use crate::surroundings::{Feature, Space};
+use crate::surroundings::{Feature, PeriodicBox, Space};
 use crate::vec3::Vec3;
 
 /// How far a gas is from what it should keep.
@@ -73,6 +73,20 @@ pub(super) fn run<T: Studied>(
         momentum: in_epsilon::<T>(gained / scale) / walk,
         overlap: deepest,
     })
+}
+
+/// How far each body is from where it was, or from the nearest image of that,
+/// length.
+pub(super) fn distances<T: Studied>(
+    now: &Bodies<T>,
+    before: &Bodies<T>,
+    space: Option<PeriodicBox<T>>,
+) -> Vec<f64> {
+    let distance = |k| {
+        let offset = now.position_of(k) - before.position_of(k);
+        wide(space.map_or(offset, |space| space.nearest(offset))).length()
+    };
+    (0..now.len()).map(distance).collect()
 }
 
 /// The deepest overlap of two bodies, or of a body and something fixed.

@@ -38,8 +38,7 @@ struct Worst {
 }
 
 fn graze<T: Studied>(surface: Surface, pairs: u64) -> Trial {
-    let kind = if surface == Surface::Rough { "rough" } else { "smooth" };
-    trial::<T, _>(kind, 36.0 * 3e-5 * pairs as f64, move || {
+    trial::<T, _>(surface.to_string(), 36.0 * 3e-5 * pairs as f64, move || {
         let mut random = Random(5);
         let mut worst = Worst::default();
         for k in 0..36 * pairs {
@@ -47,7 +46,7 @@ fn graze<T: Studied>(surface: Surface, pairs: u64) -> Trial {
             let delta = side * 10.0_f64.powi(-(k as i32 / 2 % 18)) * 0.9;
             measure::<T>(&mut random, surface, delta, &mut worst)?;
         }
-        let name = |what: &str| format!("{what}, {kind}");
+        let name = |what: &str| format!("{what}, {surface}");
         Ok(vec![
             Figure::at_most(T::PRECISION, name("decided wrongly"), worst.wrong as f64, 0.0, ""),
             Figure::at_most(T::PRECISION, name("off where decided"), worst.normal, 16.0, "ε/√δ"),

@@ -46,11 +46,8 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             let aim = 0.7 * random.unit();
             let mut balls = pair::meeting(&mut random, [0.5; 2], masses, aim);
             balls[heavy].spin = balls[heavy].spin * if heavy == 0 { 1.0 } else { 0.0 };
-            let scene = pair::scene::<T>(&balls, surface)?;
-            let Some(expected) = pair::expected(&scene) else { continue };
-            let error = match pair::found(scene, 10.0)? {
-                Some(found) => found.off(&expected),
-                None => [f64::INFINITY; 2],
+            let Some((error, expected)) = pair::measured::<T>(&balls, surface, 10.0)? else {
+                continue;
             };
             let light = 1 - heavy;
             let own = error[heavy] / expected.speeds()[heavy];
@@ -78,9 +75,9 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
     let ten = power_of_ten(power);
     trial::<T, _>(format!("gas, {ten}"), 1e-6 * collisions as f64, move || {
         let mut figures = Vec::new();
-        for (surface, kind) in [(Surface::Smooth, "smooth"), (Surface::Rough, "rough")] {
+        for surface in [Surface::Smooth, Surface::Rough] {
             let kept = gas::run(mixture::<T>(power, surface)?, collisions, 9.0)?;
-            let name = |what: &str| format!("{what} of a {kind} gas, {ten}");
+            let name = |what: &str| format!("{what} of a {surface} gas, {ten}");
             let energy =
                 Figure::at_most(T::PRECISION, name("energy"), kept.energy, gas::WALK, "√n ε");
             figures.push(energy.beyond_precision_if(gas::rounds_alike::<T>(10.0_f64.powi(-power))));

@@ -173,6 +173,26 @@ pub(super) fn found<T: Studied>(
     Ok(parting)
 }
 
+/// How far off each body of a pair is, and how the pair should part.
+pub(super) type Judged<J> = ([f64; 2], Parting<J>);
+
+/// How far off each body of a pair is after it has met, and how it should part;
+/// infinitely far where the engine misses the contact. `None` if they miss each
+/// other.
+pub(super) fn measured<T: Studied>(
+    balls: &[Ball; 2],
+    surface: Surface,
+    duration: f64,
+) -> Result<Option<Judged<T::Judge>>, StudyError> {
+    let scene = scene::<T>(balls, surface)?;
+    let Some(expected) = expected(&scene) else { return Ok(None) };
+    let off = match found(scene, duration)? {
+        Some(found) => found.off(&expected),
+        None => [f64::INFINITY; 2],
+    };
+    Ok(Some((off, expected)))
+}
+
 impl<J: Real> Parting<J> {
     /// How far off each body is, the faster of its centre and its surface.
     pub fn off(&self, other: &Self) -> [f64; 2] {

@@ -45,13 +45,9 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             radii[small] = 10.0_f64.powi(-power);
             let aim = 0.7 * random.unit();
             let balls = pair::meeting(&mut random, radii, radii.map(|r| r * r * r), aim);
-            let scene = pair::scene::<T>(&balls, surface)?;
-            let Some(expected) = pair::expected(&scene) else { continue };
-            let error = match pair::found(scene, 10.0)? {
-                Some(found) => greatest(found.off(&expected)),
-                None => f64::INFINITY,
-            };
-            worst = greatest([worst, error]);
+            if let Some((off, _)) = pair::measured::<T>(&balls, surface, 10.0)? {
+                worst = greatest([worst, greatest(off)]);
+            }
         }
         let name = format!("a pair, {ten}");
         Ok(vec![Figure::at_most(T::PRECISION, name, in_epsilon::<T>(worst), 16.0, "ε")])
@@ -62,9 +58,9 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
     let ten = power_of_ten(power);
     trial::<T, _>(format!("dust, {ten}"), 1e-6 * collisions as f64, move || {
         let mut figures = Vec::new();
-        for (surface, kind) in [(Surface::Smooth, "smooth"), (Surface::Rough, "rough")] {
+        for surface in [Surface::Smooth, Surface::Rough] {
             let kept = gas::run(dust::<T>(power, surface)?, collisions, SIDE)?;
-            let name = |what: &str| format!("{what}, {kind}, {ten}");
+            let name = |what: &str| format!("{what}, {surface}, {ten}");
             figures.push(Figure::at_most(
                 T::PRECISION,
                 name("energy"),

@@ -1,15 +1,15 @@
 //! Time reversed: how much of the start comes back.
 
-use super::case::{Case, Curve, Extent, Findings, Studied, Trial, in_epsilon, t3, trial, wide};
+use super::case::{
+    Case, Curve, Extent, Findings, Studied, Trial, at_points, in_epsilon, t3, trial,
+};
 use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
-use super::figure::named;
-use super::{Figure, StudyError};
-use crate::bodies::Bodies;
+use super::{Figure, StudyError, gas};
 use crate::contact::Surface;
 use crate::engine::EventDriven;
 use crate::scene::{Precision, Scene, Sphere, Spheres};
 use crate::study::fit::{Line, mean, mean_square, power};
-use crate::surroundings::{Cuboid, Plane, Space};
+use crate::surroundings::{Cuboid, Plane};
 
 pub(super) const CASE: Case = Case {
     name: "reversal",
@@ -27,26 +27,25 @@ pub(super) const CASE: Case = Case {
 fn trials(extent: Extent) -> Vec<Trial> {
     let mut trials = Vec::new();
     let bodies = extent.of(500, 256);
-    for kind in [Surface::Smooth, Surface::Rough] {
+    for surface in [Surface::Smooth, Surface::Rough] {
         for seed in 0..extent.of(8, 6) {
-            trials.extend([chaotic::<f32>(kind, bodies, seed), chaotic::<f64>(kind, bodies, seed)]);
+            trials.extend([
+                chaotic::<f32>(surface, bodies, seed),
+                chaotic::<f64>(surface, bodies, seed),
+            ]);
         }
     }
     let bounces = extent.of(1 << 20, 1 << 14);
-    for kind in [Surface::Smooth, Surface::Rough] {
-        trials.extend([regular::<f32>(kind, bounces), regular::<f64>(kind, bounces)]);
+    for surface in [Surface::Smooth, Surface::Rough] {
+        trials.extend([regular::<f32>(surface, bounces), regular::<f64>(surface, bounces)]);
     }
     trials
-}
-
-fn kind(surface: Surface) -> &'static str {
-    if surface == Surface::Rough { "rough" } else { "smooth" }
 }
 
 /// A fluid, to ever greater numbers of collisions of each body and back.
 fn chaotic<T: Studied>(surface: Surface, bodies: u64, seed: u64) -> Trial {
     let most = if T::PRECISION == Precision::F32 { 32 } else { 64 };
-    let name = format!("{} gas", kind(surface));
+    let name = format!("{surface} gas");
     trial::<T, Findings>(format!("{name}, {seed}"), 2e-3 * bodies as f64, move || {
         let spin = if surface == Surface::Rough { 1.0 } else { 0.0 };
         let spheres = Spheres::fcc(bodies)
@@ -122,22 +121,12 @@ fn way_off<T: Studied>(scene: &Scene<T>, collisions: u64) -> Result<f64, StudyEr
     for &shape in &scene.surroundings {
         back = back.surroundings(shape);
     }
-    let mut world = EventDriven::new(back.bodies(reversed(world.bodies())).build()?)?;
+    let mut bodies = world.bodies();
+    bodies.scale_motion(-T::ONE);
+    let mut world = EventDriven::new(back.bodies(bodies).build()?)?;
     world.advance(time)?;
-    let end = world.bodies();
-    let off = (0..end.len()).map(|k| {
-        let offset = end.position_of(k) - scene.bodies.position_of(k);
-        wide(scene.periodic.map_or(offset, |space| space.nearest(offset))).length()
-    });
-    Ok(mean_square(off).sqrt())
-}
-
-/// Bodies with their motion reversed.
-fn reversed<T: Studied>(mut bodies: Bodies<T>) -> Bodies<T> {
-    for column in bodies.velocity.iter_mut().chain(&mut bodies.spin) {
-        column.iter_mut().for_each(|value| *value = -*value);
-    }
-    bodies
+    let distances = gas::distances(&world.bodies(), &scene.bodies, scene.periodic);
+    Ok(mean_square(distances.into_iter()).sqrt())
 }
 
 /// The mean of the logarithms over all starts, and what it grows by.
@@ -145,11 +134,14 @@ fn combine(trials: Vec<Findings>) -> Findings {
     let found = Findings::joined(trials);
     let mut all = Findings { figures: Vec::new(), curves: Vec::new() };
     for surface in [Surface::Smooth, Surface::Rough] {
-        let name = format!("{} gas", kind(surface));
+        let name = format!("{surface} gas");
         let curves = [Precision::F32, Precision::F64].map(|precision| {
             let is_one = |curve: &&Curve| curve.precision == precision && curve.name == name;
             let runs: Vec<&Curve> = found.curves.iter().filter(is_one).collect();
-            Curve::new(precision, name.clone(), mean_curve(&runs))
+            let points = at_points(&runs, |errors| {
+                mean(&errors.iter().map(|error| error.ln()).collect::<Vec<_>>()).exp()
+            });
+            Curve::new(precision, name.clone(), points)
         });
         all.figures.extend(judged(&name, &curves));
         all.curves.extend(curves);
@@ -157,16 +149,6 @@ fn combine(trials: Vec<Findings>) -> Findings {
     all.figures.extend(found.figures);
     all.curves.extend(found.curves.into_iter().filter(|curve| !curve.name.ends_with("gas")));
     all
-}
-
-fn mean_curve(runs: &[&Curve]) -> Vec<(f64, f64)> {
-    let Some(first) = runs.first() else { return Vec::new() };
-    let at = |(k, &(c, _)): (usize, &(f64, f64))| {
-        let logarithms: Vec<f64> =
-            runs.iter().filter_map(|run| run.points.get(k)).map(|point| point.1.ln()).collect();
-        (c, mean(&logarithms).exp())
-    };
-    first.points.iter().enumerate().map(at).collect()
 }
 
 fn judged(name: &str, [single, double]: &[Curve; 2]) -> Vec<Figure> {
@@ -179,7 +161,7 @@ fn judged(name: &str, [single, double]: &[Curve; 2]) -> Vec<Figure> {
     let mut figures = vec![Figure::near(Precision::F64, format!("λ, {name}"), long, 0.8, 0.25, "")];
     for (curve, early) in [single, double].into_iter().zip(rates) {
         let is = curve.precision;
-        let epsilon = super::figure::epsilon(is);
+        let epsilon = is.epsilon();
         let mean = 0.5 * (rates[0] + rates[1]);
         // Up to where a hundredth of a diameter comes back.
         let end = curve.points.iter().take_while(|point| point.1 < 1e-2).last();
@@ -214,7 +196,7 @@ fn picture(curves: &[Curve]) -> Picture {
     let chart = |title: &str, x: Axis, is_shown: &dyn Fn(&Curve) -> bool| {
         let shown = curves.iter().filter(|curve| is_shown(curve));
         let series = shown.enumerate().map(|(k, curve)| Series {
-            name: format!("{}, {}", curve.name, named(curve.precision)),
+            name: format!("{}, {}", curve.name, curve.precision),
             color: Some(k),
             mark: Mark::LineAndDiscs,
             points: curve.points.clone(),

@@ -5,7 +5,6 @@ use super::case::{
     Case, Curve, Extent, Findings, Random, Studied, Trial, exact, exact_vector, greatest, trial,
 };
 use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
-use super::figure::{epsilon, named};
 use super::orientation::{
     from_matrix, nearest_orthonormal, normalised, product, quaternion, to_matrix,
 };
@@ -221,7 +220,7 @@ fn worst<'a>(precision: Precision, name: &str, curves: impl Iterator<Item = &'a 
 }
 
 fn judged(precision: Precision, method: Method, skewness: &Curve, angle: &Curve) -> Vec<Figure> {
-    let epsilon = epsilon(precision);
+    let epsilon = precision.epsilon();
     let name = |what: &str| format!("{what}, {}", method.name());
     let (steps, last) = angle.points.last().copied().unwrap_or((1.0, f64::NAN));
     let most = greatest(skewness.points.iter().map(|point| point.1)) / epsilon;
@@ -270,7 +269,7 @@ fn picture(curves: &[Curve]) -> Picture {
             let method = curve.name.trim_start_matches(what).trim_start_matches(", ");
             let color = Method::ALL.iter().position(|one| one.name() == method);
             Series {
-                name: format!("{method}, {}", named(curve.precision)),
+                name: format!("{method}, {}", curve.precision),
                 color,
                 mark: if curve.precision == Precision::F32 { Mark::Line } else { Mark::Dashes },
                 points: curve.points.clone(),

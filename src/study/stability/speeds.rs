@@ -38,9 +38,8 @@ fn trials(extent: Extent) -> Vec<Trial> {
 
 fn scaled<T: Studied>(power: i32, surface: Surface, gravity: f64, collisions: u64) -> Trial {
     let decade = (f64::from(power) * 2.0_f64.log10()).round() as i32;
-    let kind = if surface == Surface::Rough { "rough" } else { "smooth" };
     let field = if gravity > 0.0 { " and falling" } else { "" };
-    let key = format!("{kind}{field}, times {}", power_of_ten(decade));
+    let key = format!("{surface}{field}, times {}", power_of_ten(decade));
     trial::<T, _>(key.clone(), 4e-6 * collisions as f64, move || {
         let one = run::<T>(surface, gravity, 0, collisions)?;
         let other = run::<T>(surface, gravity, power, collisions)?;
@@ -69,9 +68,7 @@ fn run<T: Studied>(
         .spheres(spheres);
     let factor = T::from_f64(2.0_f64.powi(power));
     let mut bodies = plain.build()?.bodies;
-    for column in bodies.velocity.iter_mut().chain(&mut bodies.spin) {
-        column.iter_mut().for_each(|value| *value = *value * factor);
-    }
+    bodies.scale_motion(factor);
     let scene = Scene::<T>::builder()
         .surface(surface)
         .gravity(t3([0.0, 0.0, -gravity * 4.0_f64.powi(power)]))
@@ -96,13 +93,9 @@ fn two<T: Studied>(pairs: u64) -> Trial {
             balls[0].spin = balls[0].spin * 1e12;
             balls[1].velocity = random.direction() * 1e-12;
             balls[1].spin = balls[1].spin * 1e-12;
-            let scene = pair::scene::<T>(&balls, surface)?;
-            let Some(expected) = pair::expected(&scene) else { continue };
-            let error = match pair::found(scene, 1e-11)? {
-                Some(found) => greatest(found.off(&expected)),
-                None => f64::INFINITY,
-            };
-            worst = greatest([worst, error * 1e-12]);
+            if let Some((off, _)) = pair::measured::<T>(&balls, surface, 1e-11)? {
+                worst = greatest([worst, greatest(off) * 1e-12]);
+            }
         }
         let name = "10¹² meets 10⁻¹²";
         Ok(vec![Figure::at_most(T::PRECISION, name, in_epsilon::<T>(worst), 16.0, "ε")])

@@ -6,7 +6,6 @@ use super::method::{Family, Method};
 use super::quantity::Quantity;
 use crate::engine::Impact;
 use crate::motion::Integrator;
-use crate::scene::Precision;
 use crate::study::fit::{Estimate, common_power};
 
 /// A method with its time and its error at the last of the times.
@@ -110,10 +109,7 @@ pub(super) fn orders(
     }
     let order = |family: Family| {
         let exact = Family { stepping: None, ..family };
-        let epsilon = match family.precision {
-            Precision::F32 => f64::from(f32::EPSILON),
-            Precision::F64 => f64::EPSILON,
-        };
+        let epsilon = family.precision.epsilon();
         let (mut telling, mut worst) = (Vec::<Vec<(f64, f64)>>::new(), 0.0);
         let mut any_above = false;
         let theory = Theory::of(&family, motion, quantity);
@@ -198,6 +194,7 @@ pub(super) fn size(quantity: Quantity, length: f64, speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Precision;
     use crate::study::work_precision::method::Stepping;
 
     fn result(dt: Option<f64>, seconds: f64, error: f64) -> Judged {

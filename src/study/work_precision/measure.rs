@@ -1,7 +1,5 @@
 //! Measure: the errors of a method, and its time.
 
-use std::time::Instant;
-
 use serde::{Deserialize, Serialize};
 
 use super::method::{Method, Stepping};
@@ -12,7 +10,7 @@ use crate::observe::{StateHash, state_hash};
 use crate::real::Real;
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::StudyError;
-use crate::study::clock::{Timing, Variant, rounds, seconds};
+use crate::study::clock::{Timing, Variant, outlook, rounds, seconds};
 use crate::study::deviation::Deviation;
 
 /// What was measured of a method.
@@ -124,30 +122,20 @@ fn timed_run<T: Real>(
 /// steps, times the number of steps. The least of three: others may have used the
 /// machine meanwhile.
 pub(super) fn probe(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
-    (0..3).try_fold(f64::MAX, |least, _| {
-        let seconds = match method.precision {
-            Precision::F32 => probe_in::<f32>(file, method, end),
-            Precision::F64 => probe_in::<f64>(file, method, end),
-        };
-        Ok(least.min(seconds?))
-    })
+    match method.precision {
+        Precision::F32 => probe_in::<f32>(file, method, end),
+        Precision::F64 => probe_in::<f64>(file, method, end),
+    }
 }
 
 fn probe_in<T: Real>(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
     /// Seconds that are enough to tell.
     const ENOUGH: f64 = 0.002;
+    let scene = method.scene::<T>(file, end)?;
     let alone = Execution { threads: 1, ..Execution::default() };
-    let mut world = World::new(method.scene::<T>(file, end)?, alone)?;
-    let length = world.length(end);
-    let start = Instant::now();
-    let mut stretch = 1;
-    loop {
-        let is_there = world.advance(length, length, stretch, None)?;
-        let seconds = start.elapsed().as_secs_f64();
-        if is_there || seconds > ENOUGH {
-            let part = if is_there { 1.0 } else { world.place() / length };
-            return Ok(seconds / part.max(f64::MIN_POSITIVE));
-        }
-        stretch *= 2;
-    }
+    (0..3).try_fold(f64::MAX, |least, _| {
+        let mut world = World::new(scene.clone(), alone)?;
+        let length = world.length(end);
+        Ok(least.min(outlook(&mut world, length, ENOUGH)?))
+    })
 }

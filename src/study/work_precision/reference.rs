@@ -66,8 +66,7 @@ impl<T: Real> Run<T> {
 
 /// Collisions of a body so far, on the average; each of two that meet has one.
 pub(super) fn collisions_of_a_body<T: Real>(world: &World<T>) -> f64 {
-    let collisions = world.collisions();
-    (2 * collisions.pairs + collisions.surroundings) as f64 / world.plan().bodies as f64
+    world.collisions().ends() as f64 / world.plan().bodies as f64
 }
 
 /// How far a scene can be foretold.

@@ -72,13 +72,12 @@ impl Sweep {
         file: &SceneFile,
         asked: &Asked,
         horizon: &Horizon,
+        scene: &Scene<f64>,
     ) -> Result<Self, StudyError> {
-        let scene =
-            Method { precision: Precision::F64, stepping: None }.scene::<f64>(file, horizon.end)?;
         let mut notes = Vec::new();
         let times = times(asked, horizon.end)?;
         let end = times.last().copied().unwrap_or(horizon.end);
-        let plan = Plan::new(&scene, EngineKind::Stepped, Execution::default(), 1);
+        let plan = Plan::new(scene, EngineKind::Stepped, Execution::default(), 1);
         let meets = plan.has_pairs || plan.features > 0;
 
         let integrators = match asked.integrators.as_slice() {
@@ -104,7 +103,7 @@ impl Sweep {
         let precisions = or(&asked.precisions, &[Precision::F32, Precision::F64]);
         let engines = or(&asked.engines, &[EngineKind::EventDriven, EngineKind::Stepped]);
         let steps = match asked.steps.as_slice() {
-            [] => ladder(file, &scene, horizon, end),
+            [] => ladder(file, scene, horizon, end),
             asked => {
                 let mut steps = checked("steps", asked)?;
                 steps.reverse();
