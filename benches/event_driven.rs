@@ -29,7 +29,7 @@ use carom::contact::Surface;
 use carom::engine::{EventDriven, Execution, Lanes};
 use carom::real::Real;
 use carom::scene::{Scene, SceneError, Spheres};
-use carom::surroundings::PeriodicBox;
+use carom::space::PeriodicBox;
 use fluid::Fluid;
 
 /// Says to this program that it is to measure one row.

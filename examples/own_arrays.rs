@@ -8,7 +8,7 @@
 use carom::contact::{Party, collide};
 use carom::motion::flight::flight;
 use carom::motion::integrator::VelocityVerlet;
-use carom::surroundings::OpenSpace;
+use carom::space::OpenSpace;
 use carom::{Surface, Vec3};
 use wide::f64x4;
 

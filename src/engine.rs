@@ -17,40 +17,6 @@ pub use plan::{Plan, Turning};
 pub use stepped::Stepped;
 pub use world::World;
 
-/// How an engine goes through time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum EngineKind {
-    /// Steps of fixed length.
-    #[default]
-    Stepped,
-    /// Every collision at its exact time.
-    EventDriven,
-}
-
-/// Where inside a step of the stepped engine a contact takes effect.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Impact {
-    /// At the end of the step, where the bodies are found to overlap.
-    #[default]
-    EndOfStep,
-    /// At the time of impact inside the step: back to contact, impulse at the
-    /// true normal, forward again.
-    SubStep,
-}
-
-/// When orientations are brought up to date.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OrientationUpdate {
-    /// As a closed form of the last change of spin, when somebody asks.
-    #[default]
-    WhenAsked,
-    /// `M ← R M` in each step.
-    EachStep,
-}
-
 /// How many reals a kernel works on at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

@@ -100,35 +100,33 @@
 //! ```
 
 pub mod bodies;
-mod broadphase;
 pub mod column;
-pub mod compensated;
 pub mod contact;
 pub mod engine;
-pub mod lane;
-pub mod mat3;
 pub mod motion;
+mod numbers;
 pub mod observe;
 pub mod output;
-pub mod real;
 pub mod scene;
+pub mod space;
 #[cfg(feature = "study")]
 pub mod study;
 pub mod surroundings;
-pub mod trigonometry;
-pub mod vec3;
 mod workers;
+
+pub use numbers::{compensated, lane, mat3, real, trigonometry, vec3};
 
 // What a first program needs.
 pub use bodies::Bodies;
 pub use contact::Surface;
-pub use engine::{EngineError, Event, EventDriven, Execution, Impact, Lanes, Partner, Stepped};
+pub use engine::{EngineError, Event, EventDriven, Execution, Lanes, Partner, Stepped};
 pub use motion::Integrator;
 pub use observe::{AngularMomentum, Energy, Momentum, Temperature, state_hash};
 #[cfg(feature = "study")]
 pub use real::DoubleDouble;
-pub use scene::{Encounters, Scene, SceneBuilder, SceneError, SceneFile, Sphere, Spheres};
-pub use surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane};
+pub use scene::{Encounters, Impact, Scene, SceneBuilder, SceneError, SceneFile, Sphere, Spheres};
+pub use space::PeriodicBox;
+pub use surroundings::{Cuboid, FixedSphere, Plane};
 pub use vec3::Vec3;
 
 /// The programs of the README are tests.

@@ -28,18 +28,18 @@
 mod energy;
 mod gas;
 mod momentum;
+mod of_world;
 mod state_hash;
-mod sum;
 mod totals;
 
 pub use energy::{Energy, integrator_drift};
 pub use gas::{Temperature, collision_rate, compressibility};
 pub use momentum::{AngularMomentum, Momentum};
 pub use state_hash::{StateHash, state_hash};
-pub use sum::CompensatedSum;
 pub use totals::Totals;
 
 use crate::bodies::{Bodies, PerBody};
+use crate::compensated::CompensatedSum;
 use crate::real::Real;
 use crate::vec3::Vec3;
 

@@ -40,24 +40,21 @@ mod neighbours;
 mod origin;
 mod random;
 mod raw;
+mod settings;
 mod spheres;
-
-use core::fmt;
-
-use serde::{Deserialize, Serialize};
 
 use crate::bodies::Bodies;
 use crate::contact::Surface;
-use crate::engine::{EngineKind, Impact, OrientationUpdate};
-use crate::motion::Integrator;
 use crate::real::Real;
-use crate::surroundings::{PeriodicBox, Shape};
+use crate::space::PeriodicBox;
+use crate::surroundings::Shape;
 use crate::vec3::Vec3;
 
 pub use builder::SceneBuilder;
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use error::{Place, Problem, SceneError};
 pub use file::SceneFile;
+pub use settings::{Encounters, EngineKind, Impact, OrientationUpdate, Precision, SteppedSettings};
 pub use spheres::{Arrangement, Sphere, Spheres, Spread};
 
 /// The most bodies that a scene may have: one hundred million.
@@ -66,69 +63,6 @@ pub const MOST_BODIES: u64 = 100_000_000;
 /// The most steps that a run may have: `2⁵³`, up to which their count is exact
 /// in an `f64`.
 pub const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
-
-/// In which numbers a scene is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Precision {
-    /// Single precision, 24 binary digits.
-    F32,
-    /// Double precision, 53 binary digits.
-    #[default]
-    F64,
-}
-
-impl Precision {
-    /// What the scene file and the summary call it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F32 => f32::NAME,
-            Self::F64 => f64::NAME,
-        }
-    }
-
-    /// Distance from 1 to the next greater number.
-    #[must_use]
-    pub fn epsilon(self) -> f64 {
-        match self {
-            Self::F32 => f64::from(f32::EPSILON),
-            Self::F64 => f64::EPSILON,
-        }
-    }
-}
-
-impl fmt::Display for Precision {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-/// Who can meet whom.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Encounters {
-    /// Spheres meet each other and the surroundings.
-    #[default]
-    All,
-    /// Spheres meet the surroundings only, and pass through each other.
-    Surroundings,
-    /// Spheres fly freely through everything.
-    None,
-}
-
-/// What only the stepped engine asks.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SteppedSettings {
-    /// Length of a step, time. The stepped engine needs it.
-    pub dt: Option<f64>,
-    /// How a step of free flight is taken.
-    pub integrator: Integrator,
-    /// Where inside a step a contact takes effect.
-    pub impact: Impact,
-    /// When orientations are brought up to date.
-    pub orientation: OrientationUpdate,
-}
 
 /// A checked scene: what an engine takes.
 ///

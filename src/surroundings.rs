@@ -1,4 +1,4 @@
-//! Surroundings: what is fixed in space, and the periodic box.
+//! Surroundings: what is fixed in space.
 //!
 //! A [`Shape`] is one entry of a scene. For the kernels it falls apart into
 //! [`Feature`]s, each of which a sphere can touch in one point at a time: a
@@ -10,12 +10,10 @@
 mod cuboid;
 mod fixed_sphere;
 mod free_flight;
-mod periodic;
 mod plane;
 
 pub use cuboid::Cuboid;
 pub use fixed_sphere::FixedSphere;
-pub use periodic::{OpenSpace, PeriodicBox, Space};
 pub use plane::Plane;
 
 use free_flight::FreeFlight;

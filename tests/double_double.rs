@@ -12,7 +12,7 @@ use carom::motion::integrator::{FlightStep, VelocityVerlet};
 use carom::motion::rotation::{reference_rotation, turned};
 use carom::motion::turning::turn;
 use carom::real::Real;
-use carom::surroundings::OpenSpace;
+use carom::space::OpenSpace;
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
 use common::numbers::Random;

@@ -7,7 +7,7 @@ use carom::motion::flight::{flight, flight_and_fastest};
 use carom::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, SemiImplicitEuler, VelocityVerlet,
 };
-use carom::surroundings::{OpenSpace, PeriodicBox};
+use carom::space::{OpenSpace, PeriodicBox};
 use carom::vec3::Vec3;
 use common::numbers::Random;
 

@@ -15,14 +15,16 @@
 mod common;
 
 use carom::contact::{Party, collide, contact_time};
-use carom::engine::{EventDriven, Impact, Stepped};
+use carom::engine::{EventDriven, Stepped};
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
 use carom::observe::state_hash;
 use carom::real::Real;
+use carom::scene::Impact;
 use carom::scene::SceneFile;
-use carom::surroundings::{Cuboid, Feature, FixedSphere, OpenSpace, Plane};
+use carom::space::OpenSpace;
+use carom::surroundings::{Cuboid, Feature, FixedSphere, Plane};
 use carom::trigonometry::sin_cos;
 use carom::vec3::Vec3;
 use common::numbers::{Random, hash};

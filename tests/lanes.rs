@@ -13,8 +13,8 @@ use carom::motion::integrator::{
 use carom::motion::rotation::{reference_rotation, turned};
 use carom::motion::turning::turn;
 use carom::real::Real;
-use carom::surroundings::OpenSpace;
-use carom::surroundings::PeriodicBox;
+use carom::space::OpenSpace;
+use carom::space::PeriodicBox;
 use carom::trigonometry::{sin_cos, sin_cos_of_sum};
 use carom::vec3::Vec3;
 use common::numbers::{Bits, Random};

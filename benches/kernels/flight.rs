@@ -10,7 +10,7 @@ use carom::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, SemiImplicitEuler, VelocityVerlet,
 };
 use carom::real::Real;
-use carom::surroundings::{OpenSpace, PeriodicBox, Space};
+use carom::space::{OpenSpace, PeriodicBox, Space};
 use carom::vec3::Vec3;
 use criterion::Criterion;
 

@@ -6,12 +6,12 @@
 
 use carom::column::Column;
 use carom::contact::Surface;
-use carom::engine::{Impact, OrientationUpdate};
 use carom::motion::flight::flight;
 use carom::motion::integrator::Coasting;
 use carom::real::Real;
 use carom::scene::{Encounters, SceneBuilder, Spheres};
-use carom::surroundings::{OpenSpace, PeriodicBox};
+use carom::scene::{Impact, OrientationUpdate};
+use carom::space::{OpenSpace, PeriodicBox};
 use carom::vec3::Vec3;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use carom::engine::{EngineKind, Execution, Lanes, MOST_THREADS};
+use carom::engine::{Execution, Lanes, MOST_THREADS};
+use carom::scene::EngineKind;
 use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};

@@ -2,8 +2,9 @@
 
 use std::io;
 
-use carom::engine::{EngineError, EngineKind};
+use carom::engine::EngineError;
 use carom::output::OutputError;
+use carom::scene::EngineKind;
 use carom::scene::SceneError;
 use carom::study::StudyError;
 use thiserror::Error;

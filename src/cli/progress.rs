@@ -3,8 +3,9 @@
 use core::time::Duration;
 use std::io::{self, IsTerminal};
 
-use carom::engine::{EngineKind, World};
+use carom::engine::World;
 use carom::real::Real;
+use carom::scene::EngineKind;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 /// How finely the bar tells how far the run is.

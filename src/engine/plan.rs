@@ -5,12 +5,12 @@
 
 mod rows;
 
-use super::{EngineKind, Execution, Impact, Lanes, OrientationUpdate};
+use super::{Execution, Lanes};
 use crate::bodies::PerBody;
 use crate::contact::Surface;
 use crate::motion::Integrator;
 use crate::real::Real;
-use crate::scene::{Encounters, Scene};
+use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene};
 
 /// What becomes of the orientations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

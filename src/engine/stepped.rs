@@ -1,7 +1,7 @@
 //! The stepped engine: flight in steps of fixed length, contacts in between.
 //!
 //! A step is: fly ([`motion`](crate::motion)), renew the candidates if bodies
-//! have moved far enough ([`broadphase`](crate::broadphase)), find the contacts
+//! have moved far enough ([`broadphase`](crate::space::broadphase)), find the contacts
 //! (`narrow`), let them take effect in the scene's order (`contacts`, `impact`).
 
 mod contacts;
@@ -16,16 +16,16 @@ mod struck;
 
 use super::plan::{Plan, Turning};
 use super::tallies::Tallies;
-use super::{Collisions, EngineError, EngineKind, Event, Execution, Impact};
+use super::{Collisions, EngineError, Event, Execution};
 use crate::bodies::Bodies;
-use crate::broadphase::{BroadPhase, Candidates};
 use crate::lane::Lane;
 use crate::motion::Integrator;
 use crate::motion::turning::turn;
-use crate::observe::Energy;
 use crate::real::Real;
-use crate::scene::{MOST_STEPS, Scene};
-use crate::surroundings::{Feature, OpenSpace, PeriodicBox, features_of};
+use crate::scene::{EngineKind, Impact, MOST_STEPS, Scene};
+use crate::space::broadphase::{BroadPhase, Candidates};
+use crate::space::{OpenSpace, PeriodicBox};
+use crate::surroundings::{Feature, features_of};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 use contacts::{Contact, Rounds};
@@ -202,10 +202,10 @@ impl<T: Real> Stepped<T> {
         self.steps as f64 * self.exact_dt
     }
 
-    /// The energy of all bodies now.
+    /// The uniform acceleration, length per time².
     #[must_use]
-    pub fn energy(&self) -> Energy {
-        Energy::of(&self.bodies(), self.gravity)
+    pub fn gravity(&self) -> Vec3<T> {
+        self.gravity
     }
 
     /// Collisions since the start.

@@ -1,6 +1,6 @@
 //! Tallies: sums over all collisions.
 
-use crate::observe::CompensatedSum;
+use crate::compensated::CompensatedSum;
 use crate::real::Real;
 use crate::vec3::Vec3;
 

@@ -1,9 +1,10 @@
 //! World: a scene in motion, by whichever engine moves it.
 
-use super::{Collisions, EngineError, EngineKind, EventDriven, Execution, Listener, Plan, Stepped};
+use super::{Collisions, EngineError, EventDriven, Execution, Listener, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
-use crate::scene::Scene;
+use crate::scene::{EngineKind, Scene};
+use crate::vec3::Vec3;
 
 /// Into how many parts the duration of an event-driven run is divided: a stretch
 /// of one is over after such a part, or after one collision.
@@ -62,6 +63,15 @@ impl<T: Real> World<T> {
         match self {
             Self::Stepped(world) => world.bodies(),
             Self::EventDriven(world) => world.bodies(),
+        }
+    }
+
+    /// The uniform acceleration, length per time².
+    #[must_use]
+    pub fn gravity(&self) -> Vec3<T> {
+        match self {
+            Self::Stepped(world) => world.gravity(),
+            Self::EventDriven(world) => world.gravity(),
         }
     }
 

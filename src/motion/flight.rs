@@ -3,7 +3,7 @@
 //! ```
 //! use carom::motion::flight::flight;
 //! use carom::motion::integrator::VelocityVerlet;
-//! use carom::surroundings::OpenSpace;
+//! use carom::space::OpenSpace;
 //! use carom::vec3::Vec3;
 //!
 //! // Five bodies of another program, four at a time and one more.
@@ -25,15 +25,21 @@ use crate::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, Integrator, SemiImplicitEuler, VelocityVerlet,
 };
 use crate::motion::sweep::{Arrays, lanes_and_tail};
-use crate::surroundings::Space;
+use crate::real::Real;
 use crate::vec3::Vec3;
+
+/// Where a point that has left its space is put.
+pub trait Wrap<T: Real>: Copy + Send + Sync {
+    /// The image of a point that represents it, length.
+    fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L>;
+}
 
 /// Takes one step of flight for every body: whole lanes through `L`, the rest
 /// one by one, with the same bits.
 ///
 /// `position` in length, `velocity` in length per time, one column for each
 /// component. As many bodies move as the shortest column has.
-pub fn flight<L: Lane, I: FlightStep, S: Space<L::Scalar>>(
+pub fn flight<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
     position: [&mut [L::Scalar]; 3],
     velocity: [&mut [L::Scalar]; 3],
     acceleration: Vec3<L::Scalar>,
@@ -45,7 +51,7 @@ pub fn flight<L: Lane, I: FlightStep, S: Space<L::Scalar>>(
 
 /// [`flight`], and the greatest `v·v` of all bodies after it, in the same
 /// sweep. NaN counts for nothing; without bodies it is 0.
-pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Space<L::Scalar>>(
+pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
     position: [&mut [L::Scalar]; 3],
     velocity: [&mut [L::Scalar]; 3],
     acceleration: Vec3<L::Scalar>,
@@ -58,7 +64,7 @@ pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Space<L::Scalar>>(
 impl Integrator {
     /// [`flight`] by the integrator of this name; without a field, by
     /// [`Coasting`].
-    pub fn flight<L: Lane, S: Space<L::Scalar>>(
+    pub fn flight<L: Lane, S: Wrap<L::Scalar>>(
         self,
         position: [&mut [L::Scalar]; 3],
         velocity: [&mut [L::Scalar]; 3],
@@ -71,7 +77,7 @@ impl Integrator {
 
     /// [`flight_and_fastest`] by the integrator of this name; without a field,
     /// by [`Coasting`].
-    pub fn flight_and_fastest<L: Lane, S: Space<L::Scalar>>(
+    pub fn flight_and_fastest<L: Lane, S: Wrap<L::Scalar>>(
         self,
         position: [&mut [L::Scalar]; 3],
         velocity: [&mut [L::Scalar]; 3],
@@ -82,7 +88,7 @@ impl Integrator {
         self.sweep::<L, S, true>(position, velocity, acceleration, dt, space)
     }
 
-    fn sweep<L: Lane, S: Space<L::Scalar>, const FASTEST: bool>(
+    fn sweep<L: Lane, S: Wrap<L::Scalar>, const FASTEST: bool>(
         self,
         position: [&mut [L::Scalar]; 3],
         velocity: [&mut [L::Scalar]; 3],
@@ -101,7 +107,7 @@ impl Integrator {
 }
 
 /// All bodies: the whole lanes, then the tail.
-fn sweep<L: Lane, I: FlightStep, S: Space<L::Scalar>, const FASTEST: bool>(
+fn sweep<L: Lane, I: FlightStep, S: Wrap<L::Scalar>, const FASTEST: bool>(
     position: [&mut [L::Scalar]; 3],
     velocity: [&mut [L::Scalar]; 3],
     acceleration: Vec3<L::Scalar>,
@@ -123,7 +129,7 @@ fn sweep<L: Lane, I: FlightStep, S: Space<L::Scalar>, const FASTEST: bool>(
 }
 
 #[inline(always)]
-fn sweep_arrays<L: Lane, I: FlightStep, S: Space<L::Scalar>, const FASTEST: bool>(
+fn sweep_arrays<L: Lane, I: FlightStep, S: Wrap<L::Scalar>, const FASTEST: bool>(
     [x, y, z]: Arrays<L, 3>,
     [u, v, w]: Arrays<L, 3>,
     acceleration: Vec3<L::Scalar>,

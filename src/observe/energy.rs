@@ -3,8 +3,9 @@
 use core::fmt;
 
 use crate::bodies::Bodies;
+use crate::compensated::CompensatedSum;
 use crate::motion::Integrator;
-use crate::observe::{CompensatedSum, wide};
+use crate::observe::wide;
 use crate::real::Real;
 use crate::vec3::Vec3;
 

@@ -5,7 +5,8 @@ use core::fmt;
 use serde::{Serialize, Serializer};
 
 use crate::bodies::Bodies;
-use crate::observe::{CompensatedSum, wide};
+use crate::compensated::CompensatedSum;
+use crate::observe::wide;
 use crate::real::Real;
 use crate::vec3::Vec3;
 

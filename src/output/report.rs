@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::summary::{Summary, shortest};
 use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
-use crate::engine::Impact;
+use crate::scene::Impact;
 
 /// The labels of a vector's rows.
 const AXES: [&str; 3] = ["  x", "  y", "  z"];

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::contact::Surface;
-use crate::engine::{Collisions, EngineKind, Impact, World};
+use crate::engine::{Collisions, World};
 use crate::motion::Integrator;
 use crate::observe::{
     AngularMomentum, Energy, Momentum, StateHash, Temperature, Totals, collision_rate,
@@ -11,6 +11,7 @@ use crate::observe::{
 };
 use crate::real::Real;
 use crate::scene::Scene;
+use crate::scene::{EngineKind, Impact};
 use crate::vec3::Vec3;
 
 /// What was run.

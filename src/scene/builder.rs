@@ -6,10 +6,11 @@ use super::spheres::{Sphere, Spheres};
 use super::{Encounters, Scene, SteppedSettings, check, check_bodies, generate};
 use crate::bodies::Bodies;
 use crate::contact::Surface;
-use crate::engine::{EngineKind, Impact, OrientationUpdate};
 use crate::motion::Integrator;
 use crate::real::Real;
-use crate::surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane, Shape};
+use crate::scene::{EngineKind, Impact, OrientationUpdate};
+use crate::space::PeriodicBox;
+use crate::surroundings::{Cuboid, FixedSphere, Plane, Shape};
 use crate::vec3::Vec3;
 
 /// A figure of the scene in its own precision, and in the one that random

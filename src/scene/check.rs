@@ -10,8 +10,8 @@ use super::error::{Problem, SceneError};
 use super::spheres::{Make, Spheres, Spread};
 use super::{MOST_BODIES, MOST_STEPS};
 use crate::bodies::{Bodies, PerBody};
-use crate::engine::EngineKind;
 use crate::real::Real;
+use crate::scene::EngineKind;
 use crate::surroundings::Shape;
 use crate::vec3::Vec3;
 

@@ -10,7 +10,8 @@ use super::neighbours::{Neighbours, largest, tolerance};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
-use crate::surroundings::{Feature, PeriodicBox, Shape};
+use crate::space::PeriodicBox;
+use crate::surroundings::{Feature, Shape};
 use crate::vec3::Vec3;
 
 /// A mistake of one body: the key of its entry, and the problem.

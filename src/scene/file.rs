@@ -11,9 +11,10 @@ use super::raw::{
 };
 use super::spheres::{Make, Sphere, Spheres};
 use super::{Precision, Scene, builtin};
-use crate::engine::EngineKind;
 use crate::real::Real;
-use crate::surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane, Shape};
+use crate::scene::EngineKind;
+use crate::space::PeriodicBox;
+use crate::surroundings::{Cuboid, FixedSphere, Plane, Shape};
 
 /// A scene file, read but not yet built: the precision is still to choose.
 ///

@@ -13,7 +13,8 @@ use super::spheres::{Arrangement, Spheres, Spread};
 use super::{Encounters, check};
 use crate::bodies::Bodies;
 use crate::real::Real;
-use crate::surroundings::{Feature, PeriodicBox, Shape};
+use crate::space::PeriodicBox;
+use crate::surroundings::{Feature, Shape};
 
 /// The periodic box, as given or sized by a number density.
 pub(super) fn periodic_box<T: Real>(

@@ -10,7 +10,7 @@
 
 use core::ops::RangeInclusive;
 
-use crate::surroundings::PeriodicBox;
+use crate::space::PeriodicBox;
 
 const NONE: u32 = u32::MAX;
 
@@ -259,7 +259,7 @@ pub(super) fn largest(point: [f64; 3]) -> f64 {
 mod tests {
     use super::Neighbours;
     use crate::scene::random::{Purpose, Random};
-    use crate::surroundings::PeriodicBox;
+    use crate::space::PeriodicBox;
 
     /// Every overlap is found, as a search of all pairs finds it, over four
     /// decades of radii.

@@ -9,8 +9,8 @@ use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAc
 use super::spheres::{Arrangement, Spread};
 use super::{Encounters, Precision};
 use crate::contact::Surface;
-use crate::engine::{EngineKind, Impact, OrientationUpdate};
 use crate::motion::Integrator;
+use crate::scene::{EngineKind, Impact, OrientationUpdate};
 
 /// The whole file.
 #[derive(Clone, Debug, Default, Deserialize)]

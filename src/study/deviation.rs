@@ -9,7 +9,7 @@ use crate::engine::World;
 use crate::lane::Lane;
 use crate::mat3::Mat3;
 use crate::real::{DoubleDouble, Real};
-use crate::surroundings::{PeriodicBox, Space};
+use crate::space::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
 /// A trajectory is lost where bodies are off by this part of the greatest radius:

@@ -32,8 +32,8 @@ pub use report::{PrecisionReport, Row};
 pub use side_by_side::{Comparison, SideBySide};
 
 use super::{Journal, Order, Point, StudyError, Subject, Watch};
-use crate::engine::EngineKind;
 use crate::real::Real;
+use crate::scene::EngineKind;
 use crate::scene::SceneFile;
 use run::{Run, Track};
 

@@ -28,7 +28,7 @@ mod settings;
 use serde::Serialize;
 
 use super::{Journal, Machine, Order, Point, StudyError, Subject, Watch};
-use crate::engine::EngineKind;
+use crate::scene::EngineKind;
 use crate::scene::{Precision, SceneFile};
 
 pub use measure::Row;

@@ -5,7 +5,8 @@ use carom::contact::Surface;
 use carom::engine::EventDriven;
 use carom::observe::{Temperature, collision_rate, compressibility};
 use carom::scene::{Encounters, Spheres};
-use carom::surroundings::{FixedSphere, PeriodicBox};
+use carom::space::PeriodicBox;
+use carom::surroundings::FixedSphere;
 
 use crate::{builder, world};
 

@@ -5,7 +5,8 @@ use carom::engine::EngineError;
 use carom::observe::state_hash;
 use carom::real::Real;
 use carom::scene::{Scene, Sphere, Spheres};
-use carom::surroundings::{Cuboid, PeriodicBox};
+use carom::space::PeriodicBox;
+use carom::surroundings::Cuboid;
 
 use crate::{builder, events, t3, world};
 

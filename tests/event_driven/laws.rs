@@ -5,7 +5,8 @@ use carom::contact::Surface;
 use carom::observe::{AngularMomentum, Energy, Momentum, total_mass};
 use carom::real::Real;
 use carom::scene::{SceneBuilder, Spheres};
-use carom::surroundings::{Cuboid, FixedSphere, PeriodicBox, Space};
+use carom::space::{PeriodicBox, Space};
+use carom::surroundings::{Cuboid, FixedSphere};
 
 use crate::{builder, t3, world};
 

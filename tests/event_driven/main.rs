@@ -17,8 +17,9 @@ mod units;
 #[path = "../common/mod.rs"]
 mod common;
 
-use carom::engine::{EngineKind, Event, EventDriven, Execution, Lanes};
+use carom::engine::{Event, EventDriven, Execution, Lanes};
 use carom::real::Real;
+use carom::scene::EngineKind;
 use carom::scene::{Scene, SceneBuilder};
 use carom::surroundings::Plane;
 

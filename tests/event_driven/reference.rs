@@ -3,13 +3,15 @@
 //! kept but the flights.
 
 use carom::bodies::PerBody;
+use carom::compensated::CompensatedSum;
 use carom::contact::{Impulse, Party, Surface, collide_spread};
 use carom::engine::{Event, Partner};
+use carom::motion::flight::Wrap;
 use carom::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
-use carom::observe::CompensatedSum;
 use carom::real::Real;
 use carom::scene::{Encounters, Scene};
-use carom::surroundings::{Feature, PeriodicBox, Space};
+use carom::space::{PeriodicBox, Space};
+use carom::surroundings::Feature;
 use carom::vec3::Vec3;
 
 /// What a ball has met last.

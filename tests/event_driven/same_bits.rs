@@ -5,7 +5,8 @@ use carom::engine::{EngineError, Event, EventDriven, Execution, Lanes};
 use carom::observe::{StateHash, state_hash};
 use carom::real::Real;
 use carom::scene::{Scene, SceneFile, Spheres, builtin_scenes};
-use carom::surroundings::{Cuboid, FixedSphere, PeriodicBox};
+use carom::space::PeriodicBox;
+use carom::surroundings::{Cuboid, FixedSphere};
 
 use crate::{FAST, builder, t3, world};
 

@@ -5,7 +5,8 @@ use carom::contact::Surface;
 use carom::engine::Partner;
 use carom::real::Real;
 use carom::scene::{Scene, Sphere};
-use carom::surroundings::{Cuboid, FixedSphere, PeriodicBox};
+use carom::space::PeriodicBox;
+use carom::surroundings::{Cuboid, FixedSphere};
 
 use crate::{builder, events, t3, world};
 

@@ -2,12 +2,13 @@
 
 use carom::bodies::{Bodies, PerBody};
 use carom::contact::Surface;
-use carom::engine::{EngineKind, Impact, OrientationUpdate};
 use carom::motion::Integrator;
 use carom::scene::{
     DEFAULT_SCENE, Encounters, Precision, Scene, SceneFile, Sphere, Spheres, builtin_scenes,
 };
-use carom::surroundings::{Cuboid, FixedSphere, PeriodicBox, Plane, Shape};
+use carom::scene::{EngineKind, Impact, OrientationUpdate};
+use carom::space::PeriodicBox;
+use carom::surroundings::{Cuboid, FixedSphere, Plane, Shape};
 
 use crate::assert_starts;
 

@@ -1,10 +1,10 @@
 //! Exact cases: cradles, bouncing balls, superballs, pair collisions.
 
 use carom::contact::Surface;
-use carom::engine::Impact;
 use carom::motion::Integrator;
 use carom::observe::Energy;
 use carom::real::Real;
+use carom::scene::Impact;
 use carom::scene::{Scene, SceneBuilder, Sphere};
 use carom::surroundings::Plane;
 use carom::vec3::Vec3;

@@ -1,10 +1,11 @@
 //! The laws of energy and momentum, and the memory of a run.
 
 use carom::contact::Surface;
-use carom::engine::{Event, Impact, Partner};
+use carom::engine::{Event, Partner};
 use carom::motion::Integrator;
 use carom::observe::{Energy, Momentum, Temperature, collision_rate, compressibility, total_mass};
 use carom::real::Real;
+use carom::scene::Impact;
 use carom::scene::{Scene, Sphere, Spheres};
 use carom::surroundings::{Cuboid, FixedSphere};
 

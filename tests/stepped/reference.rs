@@ -8,7 +8,8 @@ use carom::motion::integrator::SemiImplicitEuler;
 use carom::observe::state_hash;
 use carom::real::Real;
 use carom::scene::{Scene, Sphere, Spheres};
-use carom::surroundings::{Cuboid, FixedSphere, OpenSpace, PeriodicBox, Plane, Space};
+use carom::space::{OpenSpace, PeriodicBox, Space};
+use carom::surroundings::{Cuboid, FixedSphere, Plane};
 use carom::vec3::Vec3;
 
 use crate::{FAST, SCALAR, world};

@@ -1,9 +1,10 @@
 //! The same bits in every lane width and for any number of threads.
 
 use carom::bodies::Bodies;
-use carom::engine::{Execution, Impact, Lanes};
+use carom::engine::{Execution, Lanes};
 use carom::observe::state_hash;
 use carom::real::Real;
+use carom::scene::Impact;
 use carom::scene::{SceneFile, builtin_scenes};
 
 use crate::world;

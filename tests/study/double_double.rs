@@ -3,9 +3,10 @@
 
 use carom::DoubleDouble;
 use carom::contact::Surface;
-use carom::engine::{EngineKind, Execution, World};
+use carom::engine::{Execution, World};
 use carom::lane::Lane;
 use carom::real::Real;
+use carom::scene::EngineKind;
 use carom::scene::{Scene, SceneFile, Sphere, builtin_scenes};
 use carom::study::deviation::Truth;
 use carom::surroundings::Cuboid;

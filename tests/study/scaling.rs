@@ -3,7 +3,8 @@
 use std::fs;
 use std::sync::Mutex;
 
-use carom::engine::{EngineKind, Lanes};
+use carom::engine::Lanes;
+use carom::scene::EngineKind;
 use carom::scene::{Precision, SceneFile};
 use carom::study::scaling::{Report, Scaling, Settings};
 use carom::study::{Folder, Journal, StudyError, Watch};

@@ -1,8 +1,9 @@
 //! Run time against error: the orders that theory says, and what is told where
 //! there is nothing to tell.
 
-use carom::engine::{Impact, Lanes};
+use carom::engine::Lanes;
 use carom::motion::Integrator;
+use carom::scene::Impact;
 use carom::scene::{Precision, SceneFile};
 use carom::study::work_precision::{Asked, Family, Found, Quantity, Report, Theory, WorkPrecision};
 use carom::study::{Folder, Journal};

@@ -5,7 +5,8 @@ use std::error::Error;
 
 use carom::bodies::{Bodies, Columns3, PerBody};
 use carom::column::Column;
-use carom::engine::{Execution, Impact, Lanes, OrientationUpdate, Stepped};
+use carom::engine::{Execution, Lanes, Stepped};
+use carom::scene::{Impact, OrientationUpdate};
 use carom::motion::Integrator;
 use carom::real::Real;
 use carom::scene::{self, Encounters};

@@ -1,8 +1,9 @@
 //! `carom study error`: run time against error.
 
-use carom::engine::{EngineKind, Impact, Lanes};
+use carom::engine::Lanes;
 use carom::motion::Integrator;
 use carom::scene::Precision;
+use carom::scene::{EngineKind, Impact};
 use carom::study::Subject;
 use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
 use clap::Args;

@@ -1,6 +1,6 @@
 //! `carom study precision`: the same scene in three precisions.
 
-use carom::engine::EngineKind;
+use carom::scene::EngineKind;
 use carom::study::precision::{MOST_RUNS, PrecisionStudy};
 use clap::Args;
 

@@ -1,6 +1,7 @@
 //! `carom study scaling`: time and memory against the number of bodies.
 
-use carom::engine::{EngineKind, Lanes};
+use carom::engine::Lanes;
+use carom::scene::EngineKind;
 use carom::scene::{MOST_BODIES, Precision};
 use carom::study::scaling::{Scaling, Settings};
 use clap::Args;

@@ -12,7 +12,7 @@ use super::meeting::meeting;
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
-use crate::surroundings::{PeriodicBox, Space};
+use crate::space::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
 /// What speeds by lengths may be, so that their squares are far from both ends

@@ -7,7 +7,7 @@ use crate::bodies::PerBody;
 use crate::contact::{Impulse, Party, collide_spread};
 use crate::engine::{Event, Listener, Partner};
 use crate::real::Real;
-use crate::surroundings::Space;
+use crate::space::Space;
 use crate::vec3::Vec3;
 
 impl<T: Real> EventDriven<T> {

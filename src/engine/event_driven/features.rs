@@ -6,7 +6,8 @@ use super::flight::Flight;
 use super::near::Image;
 use crate::contact::greatest_component;
 use crate::real::Real;
-use crate::surroundings::{Feature, Space};
+use crate::space::Space;
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
 impl<T: Real> EventDriven<T> {

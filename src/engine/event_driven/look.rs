@@ -5,14 +5,14 @@ use super::flight::Record;
 use super::{Effort, EventDriven};
 use crate::bodies::Bodies;
 use crate::column::Column;
+use crate::compensated::CompensatedSum;
 use crate::engine::Collisions;
 use crate::engine::plan::{Plan, Turning};
 use crate::mat3::Mat3;
+use crate::motion::flight::Wrap;
 use crate::motion::integrator::{Coasting, VelocityVerlet};
 use crate::motion::rotation::turned;
-use crate::observe::{CompensatedSum, Energy};
 use crate::real::Real;
-use crate::surroundings::Space;
 use crate::vec3::Vec3;
 
 impl<T: Real> EventDriven<T> {
@@ -28,10 +28,10 @@ impl<T: Real> EventDriven<T> {
         self.time
     }
 
-    /// The energy of all bodies now.
+    /// The uniform acceleration, length per time².
     #[must_use]
-    pub fn energy(&self) -> Energy {
-        Energy::of(&self.bodies(), self.gravity)
+    pub fn gravity(&self) -> Vec3<T> {
+        self.gravity
     }
 
     /// Collisions since the start.

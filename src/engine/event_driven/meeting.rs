@@ -5,7 +5,7 @@ use crate::contact::{ContactTime, Encounter};
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
-use crate::surroundings::Space;
+use crate::space::Space;
 use crate::vec3::Vec3;
 
 /// How two bodies in flight come near each other.

@@ -10,9 +10,10 @@ use super::coarse::Scales;
 use super::flight::{Flight, Record};
 use crate::column::Column;
 use crate::engine::plan::Turning;
+use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
-use crate::surroundings::Space;
+use crate::space::Space;
 
 /// How far bodies fly in a period, in mean distances, at the mean speed.
 const FLIGHT: f64 = 8.0;

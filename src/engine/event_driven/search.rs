@@ -9,7 +9,7 @@ use crate::engine::plan::Plan;
 use crate::lane::Lane;
 use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use crate::real::Real;
-use crate::surroundings::{OpenSpace, Space};
+use crate::space::{OpenSpace, Space};
 use crate::vec3::Vec3;
 
 /// Looks for the contacts of the body at a place with the `len` bodies found.

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::{Plan, Turning};
-use crate::engine::{EngineKind, Impact};
+use crate::scene::{EngineKind, Impact};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -8,7 +8,8 @@ use crate::bodies::PerBody;
 use crate::contact::{Impulse, Party, collide};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
-use crate::surroundings::{Feature, Space};
+use crate::space::Space;
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
 /// The motion of a body just after a contact.

@@ -4,11 +4,12 @@ use super::contacts::{Contact, Rank};
 use super::path::Path;
 use super::state::State;
 use crate::bodies::Figure;
-use crate::broadphase::Pair;
 use crate::contact::past_contact;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
-use crate::surroundings::{Feature, Space};
+use crate::space::Space;
+use crate::space::broadphase::Pair;
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
 /// The widest lane.

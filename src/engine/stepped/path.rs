@@ -1,9 +1,9 @@
 //! Path: where a body was within the step that has just been taken.
 
-use crate::engine::Impact;
 use crate::lane::{Lane, Mask};
 use crate::motion::Integrator;
 use crate::real::Real;
+use crate::scene::Impact;
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 

@@ -7,11 +7,13 @@ use super::record::Record;
 use super::state::put;
 use super::{Stepped, in_lanes};
 use crate::bodies::{Figure, PerBody, Same, at};
-use crate::broadphase::{Candidates, Chunk, Pair};
-use crate::engine::{Event, Impact, Partner};
+use crate::engine::{Event, Partner};
 use crate::lane::Lane;
+use crate::motion::flight::Wrap;
 use crate::real::Real;
-use crate::surroundings::{OpenSpace, Space};
+use crate::scene::Impact;
+use crate::space::broadphase::{Candidates, Chunk, Pair};
+use crate::space::{OpenSpace, Space};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 

@@ -1,12 +1,13 @@
 //! State: the bodies as the stepped engine keeps them.
 
 use crate::bodies::{Bodies, Columns3, PerBody, at};
-use crate::broadphase::Surveyed;
 use crate::column::Column;
 use crate::mat3::Mat3;
 use crate::motion::rotation::turned;
 use crate::real::Real;
-use crate::surroundings::{Feature, PeriodicBox};
+use crate::space::PeriodicBox;
+use crate::space::broadphase::Surveyed;
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 

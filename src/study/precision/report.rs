@@ -10,9 +10,9 @@ use super::drift::{Drift, invariants};
 use super::run::Track;
 use super::side_by_side::SideBySide;
 use super::{PRECISIONS, verdict};
-use crate::engine::EngineKind;
 use crate::output::table::{Table, counted, rounded};
 use crate::real::Real;
+use crate::scene::EngineKind;
 use crate::study::fit::Estimate;
 use crate::study::{Machine, Subject};
 

@@ -4,15 +4,16 @@ use serde::{Deserialize, Serialize};
 
 use super::order::Seen;
 use crate::bodies::Bodies;
-use crate::engine::{EngineKind, Event, Execution, World};
+use crate::engine::{Event, Execution, World};
 use crate::lane::Lane;
 use crate::observe::Temperature;
 use crate::real::{DoubleDouble, Real};
+use crate::scene::EngineKind;
 use crate::scene::{Encounters, SceneFile};
+use crate::space::PeriodicBox;
 use crate::study::StudyError;
 use crate::study::clock::outlook;
 use crate::study::invariants::{Invariants, exact, exact_vector};
-use crate::surroundings::PeriodicBox;
 use crate::vec3::Vec3;
 
 /// Steps or collisions between two looks at the way. More of them in one go save

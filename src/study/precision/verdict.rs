@@ -4,7 +4,7 @@ use super::PRECISIONS;
 use super::divergence::Divergence;
 use super::drift::Law;
 use super::report::{PrecisionReport, far, short};
-use crate::engine::EngineKind;
+use crate::scene::EngineKind;
 
 /// From so many standard errors on an average is another one: the errors of two
 /// runs, from a few blocks each, which do not know them well.

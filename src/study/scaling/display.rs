@@ -3,8 +3,9 @@
 use core::fmt;
 
 use super::{Report, Row, Settings, SpeedUp};
-use crate::engine::{EngineKind, Lanes};
+use crate::engine::Lanes;
 use crate::output::table::{Table, counted, grouped, rounded};
+use crate::scene::EngineKind;
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Report, Row};
-use crate::engine::EngineKind;
+use crate::scene::EngineKind;
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use crate::study::{Folder, StudyError};
 

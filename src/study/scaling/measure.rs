@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::{EngineKind, Execution, World};
+use crate::engine::{Execution, World};
 use crate::observe::{Totals, state_hash};
 use crate::real::Real;
+use crate::scene::EngineKind;
 use crate::scene::{Precision, SceneFile};
 use crate::study::StudyError;
 use crate::study::clock::{self, Timing, rounds, seconds};

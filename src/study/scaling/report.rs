@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::measure::{Measured, Row};
 use super::{Scaling, Settings};
-use crate::engine::EngineKind;
+use crate::scene::EngineKind;
 use crate::study::clock::Timing;
 use crate::study::fit::{Estimate, power};
 use crate::study::{Machine, StudyError, Subject};

@@ -4,7 +4,8 @@ use std::thread::available_parallelism;
 
 use serde::Serialize;
 
-use crate::engine::{EngineKind, Execution, Lanes, MOST_THREADS};
+use crate::engine::{Execution, Lanes, MOST_THREADS};
+use crate::scene::EngineKind;
 use crate::scene::{MOST_BODIES, Precision};
 use crate::study::StudyError;
 

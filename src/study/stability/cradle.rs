@@ -2,9 +2,10 @@
 
 use super::case::{Case, Extent, Findings, Studied, Trial, exact, greatest, in_epsilon, trial};
 use super::{Figure, StudyError};
-use crate::engine::{EngineKind, Execution, Impact, World};
+use crate::engine::{Execution, World};
 use crate::lane::Lane;
 use crate::real::Real;
+use crate::scene::{EngineKind, Impact};
 use crate::scene::{Scene, SceneBuilder, Sphere};
 
 pub(super) const CASE: Case = Case {

@@ -7,8 +7,8 @@ use super::{Figure, gas};
 use crate::engine::EventDriven;
 use crate::observe::{Momentum, Temperature, compressibility};
 use crate::scene::{Scene, Spheres};
+use crate::space::Space;
 use crate::study::invariants::energy_change;
-use crate::surroundings::Space;
 
 pub(super) const CASE: Case = Case {
     name: "crystal",

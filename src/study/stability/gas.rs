@@ -6,8 +6,9 @@ use crate::bodies::Bodies;
 use crate::engine::EventDriven;
 use crate::observe::{Energy, Momentum, total_mass, wide};
 use crate::scene::Scene;
+use crate::space::{PeriodicBox, Space};
 use crate::study::invariants::energy_change;
-use crate::surroundings::{Feature, PeriodicBox, Space};
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
 /// How far a gas is from what it should keep.

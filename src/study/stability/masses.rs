@@ -7,7 +7,7 @@ use super::figure::power_of_ten;
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
 use crate::scene::{Scene, Spheres};
-use crate::surroundings::PeriodicBox;
+use crate::space::PeriodicBox;
 
 pub(super) const CASE: Case = Case {
     name: "mass-ratio",

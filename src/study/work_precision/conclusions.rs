@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::method::{Family, Method};
 use super::quantity::Quantity;
-use crate::engine::Impact;
 use crate::motion::Integrator;
+use crate::scene::Impact;
 use crate::study::fit::{Estimate, common_power};
 
 /// A method with its time and its error at the last of the times.

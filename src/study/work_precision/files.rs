@@ -6,9 +6,9 @@ use super::conclusions::Judged;
 use super::method::Family;
 use super::quantity::Quantity;
 use super::report::Report;
-use crate::engine::{EngineKind, Impact};
 use crate::motion::Integrator;
 use crate::scene::Precision;
+use crate::scene::{EngineKind, Impact};
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use crate::study::{Folder, StudyError};
 

@@ -4,9 +4,9 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::{EngineKind, Impact};
 use crate::motion::Integrator;
 use crate::real::Real;
+use crate::scene::{EngineKind, Impact};
 use crate::scene::{Precision, Scene, SceneError, SceneFile};
 
 /// How the stepped engine goes.

@@ -6,9 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::method::{Method, Stepping};
 use super::reference::{Horizon, length_scale};
-use crate::engine::EngineKind;
-use crate::engine::{Execution, Impact, Lanes, Plan};
+use crate::engine::{Execution, Lanes, Plan};
 use crate::motion::Integrator;
+use crate::scene::EngineKind;
+use crate::scene::Impact;
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::StudyError;
 

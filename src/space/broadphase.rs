@@ -25,7 +25,8 @@ use skin::best_skin;
 use crate::bodies::{Columns3, Figure, PerBody, Same, at};
 use crate::lane::Lane;
 use crate::real::Real;
-use crate::surroundings::{Feature, OpenSpace, PeriodicBox};
+use crate::space::{OpenSpace, PeriodicBox};
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
@@ -226,7 +227,7 @@ impl<T: Real> BroadPhase<T> {
     ) where
         L: Lane<Scalar = T>,
         R: Figure<T>,
-        S: crate::surroundings::Space<T>,
+        S: crate::space::Space<T>,
     {
         let grids: Vec<_> =
             self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();

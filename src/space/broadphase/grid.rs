@@ -8,7 +8,7 @@
 use core::ops::Range;
 
 use crate::real::Real;
-use crate::surroundings::PeriodicBox;
+use crate::space::PeriodicBox;
 use crate::vec3::Vec3;
 
 /// Cells of at least a given side.

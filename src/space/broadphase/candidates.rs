@@ -6,7 +6,8 @@ use super::grid::Grid;
 use crate::bodies::Figure;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
-use crate::surroundings::{Feature, Space};
+use crate::space::Space;
+use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
 /// Bodies searched as one piece of work.

@@ -1,6 +1,6 @@
 //! A sum of many numbers without the rounding errors of many numbers.
 
-use crate::compensated::two_sum;
+use super::two_sum;
 
 /// A running sum in `f64` that carries what each addition rounds off.
 ///
@@ -9,7 +9,7 @@ use crate::compensated::two_sum;
 /// Mathematik und Mechanik* 54, 1974).
 ///
 /// ```
-/// use carom::observe::CompensatedSum;
+/// use carom::compensated::CompensatedSum;
 /// let terms = [1.0, 1e100, 1.0, -1e100];
 /// assert_eq!(terms.iter().sum::<f64>(), 0.0);
 /// assert_eq!(terms.into_iter().collect::<CompensatedSum>().value(), 2.0);

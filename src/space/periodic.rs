@@ -1,15 +1,13 @@
 //! Periodic box: space that closes upon itself.
 
 use crate::lane::Lane;
+use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// How differences of positions are measured: in open space, or to the nearest
 /// image in a [`PeriodicBox`].
-pub trait Space<T: Real>: Copy + Send + Sync {
-    /// The image of a point that represents it.
-    fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L>;
-
+pub trait Space<T: Real>: Wrap<T> {
     /// The shortest difference between two points' images.
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L>;
 
@@ -28,12 +26,14 @@ pub trait Space<T: Real>: Copy + Send + Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct OpenSpace;
 
-impl<T: Real> Space<T> for OpenSpace {
+impl<T: Real> Wrap<T> for OpenSpace {
     #[inline(always)]
     fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L> {
         point
     }
+}
 
+impl<T: Real> Space<T> for OpenSpace {
     #[inline(always)]
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {
         difference
@@ -77,7 +77,7 @@ impl<T: Real> PeriodicBox<T> {
     }
 }
 
-impl<T: Real> Space<T> for PeriodicBox<T> {
+impl<T: Real> Wrap<T> for PeriodicBox<T> {
     /// The image inside the box, however far outside the point is.
     #[inline(always)]
     fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L> {
@@ -92,7 +92,9 @@ impl<T: Real> Space<T> for PeriodicBox<T> {
             wrap(point.z, self.lower.z, self.upper.z),
         )
     }
+}
 
+impl<T: Real> Space<T> for PeriodicBox<T> {
     /// The shortest image of a difference of two points inside the box.
     #[inline(always)]
     fn nearest<L: Lane<Scalar = T>>(self, difference: Vec3<L>) -> Vec3<L> {

@@ -1,0 +1,105 @@
+//! Settings: what a scene asks of numbers, surfaces, time and engines.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::Integrator;
+use crate::real::Real;
+
+/// In which numbers a scene is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Precision {
+    /// Single precision, 24 binary digits.
+    F32,
+    /// Double precision, 53 binary digits.
+    #[default]
+    F64,
+}
+
+impl Precision {
+    /// What the scene file and the summary call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => f32::NAME,
+            Self::F64 => f64::NAME,
+        }
+    }
+
+    /// Distance from 1 to the next greater number.
+    #[must_use]
+    pub fn epsilon(self) -> f64 {
+        match self {
+            Self::F32 => f64::from(f32::EPSILON),
+            Self::F64 => f64::EPSILON,
+        }
+    }
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// How an engine goes through time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EngineKind {
+    /// Steps of fixed length.
+    #[default]
+    Stepped,
+    /// Every collision at its exact time.
+    EventDriven,
+}
+
+/// Who can meet whom.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Encounters {
+    /// Spheres meet each other and the surroundings.
+    #[default]
+    All,
+    /// Spheres meet the surroundings only, and pass through each other.
+    Surroundings,
+    /// Spheres fly freely through everything.
+    None,
+}
+
+/// What only the stepped engine asks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SteppedSettings {
+    /// Length of a step, time. The stepped engine needs it.
+    pub dt: Option<f64>,
+    /// How a step of free flight is taken.
+    pub integrator: Integrator,
+    /// Where inside a step a contact takes effect.
+    pub impact: Impact,
+    /// When orientations are brought up to date.
+    pub orientation: OrientationUpdate,
+}
+
+/// Where inside a step of the stepped engine a contact takes effect.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Impact {
+    /// At the end of the step, where the bodies are found to overlap.
+    #[default]
+    EndOfStep,
+    /// At the time of impact inside the step: back to contact, impulse at the
+    /// true normal, forward again.
+    SubStep,
+}
+
+/// When orientations are brought up to date.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OrientationUpdate {
+    /// As a closed form of the last change of spin, when somebody asks.
+    #[default]
+    WhenAsked,
+    /// `M ← R M` in each step.
+    EachStep,
+}
