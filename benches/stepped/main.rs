@@ -15,8 +15,7 @@ mod scenes;
 mod gas;
 mod skips;
 
-use carom::engine::{EngineError, Execution, Lanes, Stepped};
-use carom::real::Real;
+use carom::engine::{Compiled, EngineError, Execution, Lanes, Stepped};
 use carom::scene::{Scene, SceneError};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Throughput};
@@ -35,7 +34,7 @@ const WARM_UP_STEPS: u64 = 20;
 
 /// Measures as many steps of a scene as make up a million steps of one body,
 /// but some: a search for candidates serves several steps.
-fn measure<T: Real>(
+fn measure<T: Compiled>(
     group: &mut BenchmarkGroup<'_, WallTime>,
     id: BenchmarkId,
     scene: Scene<T>,

@@ -57,19 +57,19 @@ pub(super) struct Impacts<S> {
     pub within_step: bool,
 }
 
-/// The places of up to a pack's bodies, and their indices in the scene.
-struct Places {
-    places: [u32; WIDEST],
+/// The slots of up to a pack's bodies, and their indices in the scene.
+struct Slots {
+    slots: [u32; WIDEST],
     indices: [u32; WIDEST],
 }
 
-impl Places {
+impl Slots {
     #[inline(always)]
-    fn new<T: Real>(state: &State<T>, width: usize, place: impl Fn(usize) -> u32) -> Self {
-        let mut these = Self { places: [0; WIDEST], indices: [0; WIDEST] };
+    fn new<T: Real>(state: &State<T>, width: usize, slot: impl Fn(usize) -> u32) -> Self {
+        let mut these = Self { slots: [0; WIDEST], indices: [0; WIDEST] };
         for k in 0..width {
-            these.places[k] = place(k);
-            these.indices[k] = state.index[place(k) as usize];
+            these.slots[k] = slot(k);
+            these.indices[k] = state.index[slot(k) as usize];
         }
         these
     }
@@ -109,11 +109,11 @@ impl<S> Impacts<S> {
         T: Real,
         S: Space<T>,
     {
-        let first = Places::new(state, L::WIDTH, |k| contacts[k].a);
-        let second = Places::new(state, L::WIDTH, |k| contacts[k].b);
+        let first = Slots::new(state, L::WIDTH, |k| contacts[k].a);
+        let second = Slots::new(state, L::WIDTH, |k| contacts[k].b);
         let mut a = party::<L, T, ROUGH>(state, &first);
         let mut b = party::<L, T, ROUGH>(state, &second);
-        let mut offset = offset::<L, T, S>(state, self.space, &first.places, &second.places);
+        let mut offset = offset::<L, T, S>(state, self.space, &first.slots, &second.slots);
         if self.within_step {
             offset -= (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
         }
@@ -123,8 +123,8 @@ impl<S> Impacts<S> {
                 b.share = L::ratio(1, 2);
             }
             PerBody::Each(radius) => {
-                let first = L::gather(radius, &first.places);
-                let second = L::gather(radius, &second.places);
+                let first = L::gather(radius, &first.slots);
+                let second = L::gather(radius, &second.slots);
                 let reach = first + second;
                 a.share = first / reach;
                 b.share = second / reach;
@@ -172,10 +172,10 @@ impl<S> Impacts<S> {
         T: Real,
         S: Space<T>,
     {
-        let places = Places::new(state, L::WIDTH, |k| contacts[k].a);
-        let mut a = party::<L, T, ROUGH>(state, &places);
+        let slots = Slots::new(state, L::WIDTH, |k| contacts[k].a);
+        let mut a = party::<L, T, ROUGH>(state, &slots);
         a.share = L::ONE;
-        let mut center = gather::<L>(&state.position, &places.places);
+        let mut center = gather::<L>(&state.position, &slots.slots);
         let at_end = a.velocity;
         if self.within_step {
             let ago = L::from_fn(|k| contacts[k].ago);
@@ -186,7 +186,7 @@ impl<S> Impacts<S> {
         let at_contact = a.velocity;
         let radius = match &state.radius {
             PerBody::Same(radius) => L::splat(*radius),
-            PerBody::Each(radius) => L::gather(radius, &places.places),
+            PerBody::Each(radius) => L::gather(radius, &slots.slots),
         };
         let arm = feature.clearance(center, radius).arm;
         let impulse = collide::<L, ROUGH>(arm, &mut a, &mut Party::immovable());
@@ -199,20 +199,20 @@ impl<S> Impacts<S> {
     }
 }
 
-/// The bodies at some places, their shares of the offset still open.
+/// The bodies at some slots, their shares of the offset still open.
 #[inline(always)]
-fn party<L, T, const ROUGH: bool>(state: &State<T>, places: &Places) -> Party<L>
+fn party<L, T, const ROUGH: bool>(state: &State<T>, slots: &Slots) -> Party<L>
 where
     L: Lane<Scalar = T>,
     T: Real,
 {
     let cold = |figure: &PerBody<T>| match figure {
         PerBody::Same(value) => L::splat(*value),
-        PerBody::Each(column) => L::gather(column, &places.indices),
+        PerBody::Each(column) => L::gather(column, &slots.indices),
     };
     Party {
-        velocity: gather(&state.velocity, &places.places),
-        spin: if ROUGH { gather(&state.spin, &places.indices) } else { Vec3::ZERO },
+        velocity: gather(&state.velocity, &slots.slots),
+        spin: if ROUGH { gather(&state.spin, &slots.indices) } else { Vec3::ZERO },
         inverse_mass: cold(&state.inverse_mass),
         inverse_inertia: if ROUGH { cold(&state.inverse_inertia) } else { L::ZERO },
         share: L::ZERO,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::order::Seen;
 use crate::bodies::Bodies;
-use crate::engine::{Event, Execution, World};
+use crate::engine::{Compiled, Event, Execution, World};
 use crate::lane::Lane;
 use crate::observe::Temperature;
 use crate::real::{DoubleDouble, Real};
@@ -76,7 +76,7 @@ pub(super) struct Run<T: Real> {
     pub(super) has_surroundings: bool,
 }
 
-impl<T: Real> Run<T> {
+impl<T: Compiled> Run<T> {
     /// At the start. All speeds of run `number` are `f = 1 + number/64` times
     /// those of the scene, and gravity `f²` times: the same paths at another
     /// pace, with other roundings.
@@ -174,7 +174,12 @@ impl<T: Real> Run<T> {
 
 impl Track {
     /// A whole run.
-    pub(super) fn of<T: Real>(file: &SceneFile, duration: f64, samples: u32, number: u32) -> Self {
+    pub(super) fn of<T: Compiled>(
+        file: &SceneFile,
+        duration: f64,
+        samples: u32,
+        number: u32,
+    ) -> Self {
         let mut track = Self::default();
         let mut run = match Run::<T>::new(file, duration, samples, number) {
             Ok(run) => run,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Figure;
 use super::chart::Picture;
+use crate::engine::Compiled;
 use crate::lane::Lane;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::Precision;
@@ -111,7 +112,7 @@ pub struct Case {
 }
 
 /// A precision that is studied, with a better one to judge it by.
-pub(super) trait Studied: Real {
+pub(super) trait Studied: Compiled {
     /// Its name.
     const PRECISION: Precision;
     /// A precision with twice the digits.

@@ -1,7 +1,7 @@
 //! Reference: what the bodies of a scene should do, and how long that can be
 //! told.
 
-use crate::engine::{Execution, World};
+use crate::engine::{Compiled, Execution, World};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::StudyError;
@@ -49,7 +49,7 @@ struct Run<T: Real> {
     scene: Scene<T>,
 }
 
-impl<T: Real> Run<T> {
+impl<T: Compiled> Run<T> {
     fn new(scene: Scene<T>) -> Result<Self, StudyError> {
         Ok(Self { world: World::new(scene.clone(), Execution::default())?, scene })
     }
