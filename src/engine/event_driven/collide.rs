@@ -4,7 +4,7 @@ use super::EventDriven;
 use super::agenda::{Mark, PartnerCode};
 use super::flight::{Flight, Record};
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Party, collide_spread};
+use crate::contact::{Impulse, Party, Rough, Smooth, collide_spread};
 use crate::engine::{Event, Listener, Partner};
 use crate::real::Real;
 use crate::space::Space;
@@ -110,9 +110,9 @@ impl<T: Real> EventDriven<T> {
     #[inline(always)]
     fn impulse(&self, offset: Vec3<T>, a: &mut Party<T>, b: &mut Party<T>) -> Impulse<T> {
         if self.plan.is_rough {
-            collide_spread::<T, true>(offset, a, b)
+            collide_spread(Rough, offset, a, b)
         } else {
-            collide_spread::<T, false>(offset, a, b)
+            collide_spread(Smooth, offset, a, b)
         }
     }
 

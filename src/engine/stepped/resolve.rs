@@ -7,6 +7,7 @@ use super::record::Record;
 use super::state::put;
 use super::{Stepped, in_lanes};
 use crate::bodies::{Figure, PerBody, Same, at};
+use crate::contact::{Laws, Rough, Smooth};
 use crate::engine::{Event, Partner};
 use crate::lane::Lane;
 use crate::motion::flight::Wrap;
@@ -150,33 +151,28 @@ impl<T: Real> Stepped<T> {
         outcomes: &mut [Outcome<T>],
     ) {
         match (self.periodic, self.plan.is_rough) {
-            (None, false) => self.impulses_in::<L, _, false>(OpenSpace, contacts, outcomes),
-            (None, true) => self.impulses_in::<L, _, true>(OpenSpace, contacts, outcomes),
-            (Some(space), false) => self.impulses_in::<L, _, false>(space, contacts, outcomes),
-            (Some(space), true) => self.impulses_in::<L, _, true>(space, contacts, outcomes),
+            (None, false) => self.impulses_in::<L, _, _>(OpenSpace, Smooth, contacts, outcomes),
+            (None, true) => self.impulses_in::<L, _, _>(OpenSpace, Rough, contacts, outcomes),
+            (Some(space), false) => self.impulses_in::<L, _, _>(space, Smooth, contacts, outcomes),
+            (Some(space), true) => self.impulses_in::<L, _, _>(space, Rough, contacts, outcomes),
         }
     }
 
-    fn impulses_in<L: Lane<Scalar = T>, S: Space<T>, const ROUGH: bool>(
+    fn impulses_in<L: Lane<Scalar = T>, S: Space<T>, W: Laws<T>>(
         &self,
         space: S,
+        laws: W,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
     ) {
         let within_step = self.plan.impact == Impact::SubStep;
-        let impacts = Impacts { space, within_step };
+        let impacts = Impacts { space, laws, within_step };
         let Some(first) = contacts.first() else { return };
         if first.rank.is_pair() {
-            impacts.pairs::<L, T, ROUGH>(&self.state, contacts, outcomes);
+            impacts.pairs::<L, T>(&self.state, contacts, outcomes);
         } else {
             let feature = &self.features[first.b as usize];
-            impacts.surroundings::<L, T, ROUGH>(
-                &self.state,
-                &self.path,
-                feature,
-                contacts,
-                outcomes,
-            );
+            impacts.surroundings::<L, T>(&self.state, &self.path, feature, contacts, outcomes);
         }
     }
 
