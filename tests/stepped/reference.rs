@@ -2,7 +2,7 @@
 //! taken one after another. Not close to it: the same bits.
 
 use carom::bodies::{Bodies, PerBody};
-use carom::contact::{Party, Surface, collide};
+use carom::contact::{Party, Rough, Smooth, Surface, collide};
 use carom::engine::Compiled;
 use carom::motion::flight::flight;
 use carom::motion::integrator::SemiImplicitEuler;
@@ -42,9 +42,9 @@ impl<T: Compiled> Reference<T> {
         let [u, v, w] = &mut self.bodies.velocity;
         let dt = T::from_f64(scene.stepped.dt.unwrap());
         flight::<T, SemiImplicitEuler, S>([x, y, z], [u, v, w], scene.gravity, dt, space);
-        let collide = match scene.surface {
-            Surface::Smooth => collide::<T, false>,
-            Surface::Rough => collide::<T, true>,
+        let collide = |offset, a: &mut Party<T>, b: &mut Party<T>| match scene.surface {
+            Surface::Smooth => collide(Smooth, offset, a, b),
+            Surface::Rough => collide(Rough, offset, a, b),
         };
         for a in 0..self.bodies.len() {
             let center = self.bodies.position_of(a);

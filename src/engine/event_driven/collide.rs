@@ -10,7 +10,7 @@ use super::search::search;
 use super::setting::Setting;
 use super::turns::enter;
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Party, collide_spread};
+use crate::contact::{Impulse, Party, Rough, Smooth, collide_spread};
 use crate::engine::account::Account;
 use crate::engine::{Event, Listener, Partner};
 use crate::real::Real;
@@ -124,9 +124,9 @@ fn collide<T: Real>(
     b: &mut Party<T>,
 ) -> Impulse<T> {
     if setting.plan.is_rough {
-        collide_spread::<T, true>(offset, a, b)
+        collide_spread(Rough, offset, a, b)
     } else {
-        collide_spread::<T, false>(offset, a, b)
+        collide_spread(Smooth, offset, a, b)
     }
 }
 

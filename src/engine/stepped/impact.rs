@@ -5,7 +5,7 @@ use super::narrow::{WIDEST, gather, offset};
 use super::path::Path;
 use super::state::State;
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Party, collide};
+use crate::contact::{Impulse, Laws, Party, collide};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::space::Space;
@@ -51,8 +51,9 @@ impl<T: Real> Outcome<T> {
 
 /// How the contacts of a scene are worked out; chosen once by the plan.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Impacts<S> {
+pub(super) struct Impacts<S, W> {
     pub space: S,
+    pub laws: W,
     /// Whether contacts take effect at their own time, not at the step's end.
     pub within_step: bool,
 }
@@ -75,9 +76,9 @@ impl Slots {
     }
 }
 
-impl<S> Impacts<S> {
+impl<S, W> Impacts<S, W> {
     /// The impulses of contacts between bodies.
-    pub fn pairs<L, T, const ROUGH: bool>(
+    pub fn pairs<L, T>(
         &self,
         state: &State<T>,
         contacts: &[Contact<T>],
@@ -86,20 +87,21 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
         let whole = contacts.len() - contacts.len() % L::WIDTH;
         for start in (0..whole).step_by(L::WIDTH) {
             let range = start..start + L::WIDTH;
             let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
-            self.pack_of_pairs::<L, T, ROUGH>(state, now, after);
+            self.pack_of_pairs::<L, T>(state, now, after);
         }
         for k in whole..contacts.len() {
-            self.pack_of_pairs::<T, T, ROUGH>(state, &contacts[k..=k], &mut outcomes[k..=k]);
+            self.pack_of_pairs::<T, T>(state, &contacts[k..=k], &mut outcomes[k..=k]);
         }
     }
 
     #[inline(never)]
-    fn pack_of_pairs<L, T, const ROUGH: bool>(
+    fn pack_of_pairs<L, T>(
         &self,
         state: &State<T>,
         contacts: &[Contact<T>],
@@ -108,11 +110,12 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
         let first = Slots::new(state, L::WIDTH, |k| contacts[k].a);
         let second = Slots::new(state, L::WIDTH, |k| contacts[k].b);
-        let mut a = party::<L, T, ROUGH>(state, &first);
-        let mut b = party::<L, T, ROUGH>(state, &second);
+        let mut a = party::<L, T, W>(state, &first);
+        let mut b = party::<L, T, W>(state, &second);
         let mut offset = offset::<L, T, S>(state, self.space, &first.slots, &second.slots);
         if self.within_step {
             offset -= (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
@@ -130,12 +133,13 @@ impl<S> Impacts<S> {
                 b.share = second / reach;
             }
         }
-        let impulse = collide::<L, ROUGH>(offset, &mut a, &mut b);
+        let law = self.laws.between(one_material);
+        let impulse = collide(law, offset, &mut a, &mut b);
         write(outcomes, offset, impulse, a, b);
     }
 
     /// The impulses of contacts of bodies with one fixed feature.
-    pub fn surroundings<L, T, const ROUGH: bool>(
+    pub fn surroundings<L, T>(
         &self,
         state: &State<T>,
         path: &Path<T>,
@@ -146,21 +150,22 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
         let whole = contacts.len() - contacts.len() % L::WIDTH;
         for start in (0..whole).step_by(L::WIDTH) {
             let range = start..start + L::WIDTH;
             let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
-            self.pack_at_feature::<L, T, ROUGH>(state, path, feature, now, after);
+            self.pack_at_feature::<L, T>(state, path, feature, now, after);
         }
         for k in whole..contacts.len() {
             let (now, after) = (&contacts[k..=k], &mut outcomes[k..=k]);
-            self.pack_at_feature::<T, T, ROUGH>(state, path, feature, now, after);
+            self.pack_at_feature::<T, T>(state, path, feature, now, after);
         }
     }
 
     #[inline(never)]
-    fn pack_at_feature<L, T, const ROUGH: bool>(
+    fn pack_at_feature<L, T>(
         &self,
         state: &State<T>,
         path: &Path<T>,
@@ -171,9 +176,10 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
         let slots = Slots::new(state, L::WIDTH, |k| contacts[k].a);
-        let mut a = party::<L, T, ROUGH>(state, &slots);
+        let mut a = party::<L, T, W>(state, &slots);
         a.share = L::ONE;
         let mut center = gather::<L>(&state.position, &slots.slots);
         let at_end = a.velocity;
@@ -189,7 +195,8 @@ impl<S> Impacts<S> {
             PerBody::Each(radius) => L::gather(radius, &slots.slots),
         };
         let arm = feature.clearance(center, radius).arm;
-        let impulse = collide::<L, ROUGH>(arm, &mut a, &mut Party::immovable());
+        let law = self.laws.between(one_material);
+        let impulse = collide(law, arm, &mut a, &mut Party::immovable());
         if self.within_step {
             // The rest of the step adds what the field does, as it did before.
             a.velocity =
@@ -199,12 +206,18 @@ impl<S> Impacts<S> {
     }
 }
 
+/// A scene has one material.
+fn one_material(_: usize) -> [u32; 2] {
+    [0; 2]
+}
+
 /// The bodies at some slots, their shares of the offset still open.
 #[inline(always)]
-fn party<L, T, const ROUGH: bool>(state: &State<T>, slots: &Slots) -> Party<L>
+fn party<L, T, W>(state: &State<T>, slots: &Slots) -> Party<L>
 where
     L: Lane<Scalar = T>,
     T: Real,
+    W: Laws<T>,
 {
     let cold = |figure: &PerBody<T>| match figure {
         PerBody::Same(value) => L::splat(*value),
@@ -212,9 +225,9 @@ where
     };
     Party {
         velocity: gather(&state.velocity, &slots.slots),
-        spin: if ROUGH { gather(&state.spin, &slots.indices) } else { Vec3::ZERO },
+        spin: if W::CHANGES_SPINS { gather(&state.spin, &slots.indices) } else { Vec3::ZERO },
         inverse_mass: cold(&state.inverse_mass),
-        inverse_inertia: if ROUGH { cold(&state.inverse_inertia) } else { L::ZERO },
+        inverse_inertia: if W::CHANGES_SPINS { cold(&state.inverse_inertia) } else { L::ZERO },
         share: L::ZERO,
     }
 }

@@ -10,6 +10,7 @@ use super::record::Record;
 use super::region::Region;
 use super::setting::Setting;
 use super::state::State;
+use crate::contact::{Laws, Rough, Smooth};
 use crate::engine::account::Account;
 use crate::lane::Lane;
 use crate::real::Real;
@@ -93,33 +94,34 @@ fn impulses_of_kind<L: Lane<Scalar = T>, T: Real>(
 ) {
     match (setting.periodic, setting.plan.is_rough) {
         (None, false) => {
-            impulses_in::<L, T, _, false>(setting, state, OpenSpace, contacts, outcomes);
+            impulses_in::<L, T, _, _>(setting, state, OpenSpace, Smooth, contacts, outcomes);
         }
         (None, true) => {
-            impulses_in::<L, T, _, true>(setting, state, OpenSpace, contacts, outcomes);
+            impulses_in::<L, T, _, _>(setting, state, OpenSpace, Rough, contacts, outcomes);
         }
         (Some(space), false) => {
-            impulses_in::<L, T, _, false>(setting, state, space, contacts, outcomes);
+            impulses_in::<L, T, _, _>(setting, state, space, Smooth, contacts, outcomes);
         }
         (Some(space), true) => {
-            impulses_in::<L, T, _, true>(setting, state, space, contacts, outcomes);
+            impulses_in::<L, T, _, _>(setting, state, space, Rough, contacts, outcomes);
         }
     }
 }
 
-fn impulses_in<L: Lane<Scalar = T>, T: Real, S: Space<T>, const ROUGH: bool>(
+fn impulses_in<L: Lane<Scalar = T>, T: Real, S: Space<T>, W: Laws<T>>(
     setting: &Setting<T>,
     state: &State<T>,
     space: S,
+    laws: W,
     contacts: &[Contact<T>],
     outcomes: &mut [Outcome<T>],
 ) {
-    let impacts = Impacts { space, within_step: setting.is_within_step() };
+    let impacts = Impacts { space, laws, within_step: setting.is_within_step() };
     let Some(first) = contacts.first() else { return };
     if first.rank.is_pair() {
-        impacts.pairs::<L, T, ROUGH>(state, contacts, outcomes);
+        impacts.pairs::<L, T>(state, contacts, outcomes);
     } else {
         let feature = &setting.features[first.b as usize];
-        impacts.surroundings::<L, T, ROUGH>(state, &setting.path, feature, contacts, outcomes);
+        impacts.surroundings::<L, T>(state, &setting.path, feature, contacts, outcomes);
     }
 }

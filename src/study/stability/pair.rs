@@ -2,7 +2,7 @@
 
 use super::StudyError;
 use super::case::{Random, Studied, exact, exact_vector, greatest};
-use crate::contact::{Party, Surface, collide, contact_time};
+use crate::contact::{Party, Rough, Smooth, Surface, collide, contact_time};
 use crate::engine::{Event, EventDriven, Partner};
 use crate::lane::Lane;
 use crate::real::Real;
@@ -106,9 +106,9 @@ impl<J: Real> Encounter<J> {
     fn parting(&self, offset: Vec3<J>) -> Parting<J> {
         let [mut a, mut b] = self.parties;
         if self.surface == Surface::Rough {
-            collide::<J, true>(offset, &mut a, &mut b);
+            collide(Rough, offset, &mut a, &mut b);
         } else {
-            collide::<J, false>(offset, &mut a, &mut b);
+            collide(Smooth, offset, &mut a, &mut b);
         }
         let surface = [a.spin * self.radii[0], b.spin * self.radii[1]];
         Parting { velocity: [a.velocity, b.velocity], surface }
