@@ -6,7 +6,7 @@
 //! which body is next ([`calendar`]); cells say what is near what ([`cells`]).
 //!
 //! A contact time is a function of the two flights that lead to it, and of
-//! nothing else: not of when it was found, by whom, or in which lanes. Flights
+//! nothing else: not of when it was found, from which side, or in which lanes. Flights
 //! start again at collisions and where a period of time begins; to look at the
 //! bodies in between changes no bit of them.
 

@@ -1,8 +1,8 @@
-//! Calendar: whose turn it is, at a cost that does not grow with the bodies.
+//! Calendar: which body is next, at a cost that does not grow with the bodies.
 //!
 //! The period is cut into spans of equal length. A body is put down in the span
 //! of its turn as it comes, unsorted, and without its time, which is in its
-//! agenda; a span is sorted when its time has come, and bodies whose turn is no
+//! agenda; a span is sorted when its time has come, and bodies that are due no
 //! longer in it are thrown out then (a calendar queue, Brown 1988, without
 //! removal).
 

@@ -27,7 +27,7 @@ pub(super) fn collide_pair<T: Real>(
     time: T,
     on_event: &mut Listener<'_, T>,
 ) {
-    // The first body of the scene comes first, whoever's turn it is.
+    // The first body of the scene comes first, whichever of the two is due.
     let swapped = region.index[one as usize] > region.index[other as usize];
     let (one, other) = if swapped { (other, one) } else { (one, other) };
     let (a, b) = (one as usize, other as usize);

@@ -1,4 +1,4 @@
-//! Turns: body after body, whoever is next.
+//! Turns: body after body, the earliest first.
 
 use core::cmp::Ordering;
 

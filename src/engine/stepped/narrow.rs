@@ -15,7 +15,7 @@ use crate::vec3::Vec3;
 /// The widest lane.
 pub(super) const WIDEST: usize = 16;
 
-/// How contacts are told at the end of a step of flight.
+/// How contacts are found at the end of a step of flight.
 pub(super) trait Detection<T: Real>: Copy + Send + Sync {
     /// Which of the pairs at slots `a` and `b` touch, and how long ago.
     fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
