@@ -14,6 +14,7 @@ mod scenes;
 
 mod gas;
 mod skips;
+mod small;
 
 use carom::engine::{Compiled, EngineError, Execution, Lanes, Stepped};
 use carom::scene::{Scene, SceneError};
@@ -55,6 +56,8 @@ fn main() -> Result<(), SetupError> {
     gas::benches::<f64>(&mut criterion)?;
     skips::benches::<f32>(&mut criterion)?;
     skips::benches::<f64>(&mut criterion)?;
+    small::benches::<f32>(&mut criterion)?;
+    small::benches::<f64>(&mut criterion)?;
     criterion.final_summary();
     Ok(())
 }
