@@ -177,7 +177,8 @@ impl<T: Real> EventDriven<T> {
                 (0..len).map(|index| bodies.position_of(index)),
             ),
         };
-        let (cells, spacing) = Cells::fitting(region, radius + radius, len);
+        let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
+        let (cells, spacing) = Cells::fitting(region, radius + radius, len, bounded);
         let is_periodic = scene.periodic.is_some();
         let near = Near::new(&features, &images, &cells, region.ends, radius);
         let (further, coarse_further) =
