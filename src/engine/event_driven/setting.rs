@@ -66,7 +66,8 @@ impl<T: Real> Setting<T> {
                 (0..len).map(|index| bodies.position_of(index)),
             ),
         };
-        let (cells, spacing) = Cells::fitting(grid, radius + radius, len);
+        let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
+        let (cells, spacing) = Cells::fitting(grid, radius + radius, len, bounded);
         let is_periodic = scene.periodic.is_some();
         let near = Near::new(&features, &images, &cells, grid.ends, radius);
         let setting = Self {
