@@ -78,18 +78,12 @@ fn surroundings(
 
 /// A shape in the scene's precision.
 fn rounded<T: Real>(shape: Shape<f64>) -> Shape<T> {
-    let vector = |vector: Vec3<f64>| t3(vector.to_array()).into();
     match shape {
+        // To the length that the normal has in this precision.
         Shape::Plane(Plane { point, normal }) => {
             Plane::new(t3(point.to_array()), t3(normal.to_array())).into()
         }
-        Shape::Cuboid(Cuboid { lower, upper, inside }) => {
-            Cuboid { lower: vector(lower), upper: vector(upper), inside }.into()
-        }
-        Shape::FixedSphere(FixedSphere { center, radius, inside }) => {
-            let (center, radius) = (vector(center), T::from_f64(radius));
-            FixedSphere { center, radius, inside }.into()
-        }
+        shape => shape.cast(),
     }
 }
 

@@ -13,7 +13,7 @@ use crate::scene::{Encounters, SceneFile};
 use crate::space::PeriodicBox;
 use crate::study::StudyError;
 use crate::study::clock::outlook;
-use crate::study::invariants::{Invariants, exact, exact_vector};
+use crate::study::invariants::Invariants;
 use crate::vec3::Vec3;
 
 /// Steps or collisions between two looks at the way. More of them in one go save
@@ -90,11 +90,12 @@ impl<T: Compiled> Run<T> {
         let factor = T::ONE + T::whole(number as i32) / T::whole(SPEEDS);
         scene.bodies.scale_motion(factor);
         scene.gravity = scene.gravity * (factor * factor);
-        let gravity = exact_vector(scene.gravity);
+        let gravity = scene.gravity.cast::<DoubleDouble>();
         let (periodic, radius) = (scene.periodic, scene.bodies.radius.greatest().to_f64());
         let has_surroundings =
             scene.encounters != Encounters::None && !scene.surroundings.is_empty();
-        let masses = (0..scene.bodies.len()).map(|index| exact(scene.bodies.mass.of(index)));
+        let masses =
+            (0..scene.bodies.len()).map(|index| scene.bodies.mass.of(index).cast::<DoubleDouble>());
         let mass = masses.fold(DoubleDouble::ZERO, |sum, mass| sum + mass);
         let start = Invariants::of(&scene.bodies, gravity);
         // Other runs are made at the same time.

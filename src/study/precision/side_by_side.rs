@@ -113,7 +113,7 @@ impl SideBySide {
             let now = Truth::of(run.world(), run.gravity, run.periodic);
             truth.samples.push(run.sample(&now.bodies));
             for index in 0..bodies {
-                let place = now.bodies.position_of(index).to_array().map(DoubleDouble::high);
+                let place = now.bodies.position_of(index).cast::<f64>().to_array();
                 for (k, x) in place.into_iter().enumerate() {
                     corners[0][k] = corners[0][k].min(x);
                     corners[1][k] = corners[1][k].max(x);

@@ -129,16 +129,6 @@ impl Studied for f64 {
     type Judge = DoubleDouble;
 }
 
-/// The same number in the judging precision.
-pub(super) fn exact<T: Studied>(value: T) -> T::Judge {
-    T::Judge::from_f64(value.to_f64())
-}
-
-/// The same vector in the judging precision.
-pub(super) fn exact_vector<T: Studied>(vector: Vec3<T>) -> Vec3<T::Judge> {
-    vector.to_array().map(exact).into()
-}
-
 /// A vector in the studied precision.
 pub(super) fn t3<T: Real>(vector: [f64; 3]) -> [T; 3] {
     vector.map(T::from_f64)

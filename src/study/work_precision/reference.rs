@@ -130,7 +130,7 @@ pub(super) fn length_scale<T: Real>(scene: &Scene<T>) -> f64 {
     if radius > 0.0 {
         return radius;
     }
-    let places = || (0..bodies.len()).map(|k| bodies.position_of(k).to_array().map(T::to_f64));
+    let places = || (0..bodies.len()).map(|k| bodies.position_of(k).cast().to_array());
     let middle = places().fold([0.0; 3], |sum, place| {
         core::array::from_fn(|k| sum[k] + place[k] / bodies.len() as f64)
     });
