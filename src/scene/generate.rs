@@ -243,7 +243,7 @@ fn region<T: Real>(
     // What all containers have in common; a lattice takes a box inside of it.
     let is_lattice = spheres.arrangement != Arrangement::Random;
     let interiors = asked.surroundings.iter().filter_map(|given| {
-        let shape = given.exact;
+        let shape = &given.exact;
         let [lower, upper] = if is_lattice { shape.inscribed() } else { shape.interior() }?;
         Some(Region { lower: lower.to_array(), upper: upper.to_array(), is_periodic: false })
     });
