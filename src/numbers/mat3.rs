@@ -7,6 +7,16 @@ use crate::vec3::Vec3;
 
 /// A matrix by its columns. An orientation takes body axes to world axes: its
 /// columns are the body's axes in the world frame.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::mat3::Mat3;
+///
+/// // A quarter turn about z.
+/// let turn = Mat3::from_rows([0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+/// assert_eq!(turn * Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0));
+/// assert_eq!(turn * turn.transpose(), Mat3::IDENTITY);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mat3<L> {
     /// The three columns.

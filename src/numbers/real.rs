@@ -17,6 +17,18 @@ pub use double_double::DoubleDouble;
 ///
 /// A `Real` is a lane of one, so a formula over [`Lane`] takes it as it is:
 /// that is the scalar reference path.
+///
+/// ```
+/// use carom::real::Real;
+///
+/// /// The time of fall from a height, in any precision.
+/// fn fall<T: Real>(height: T, gravity: T) -> T {
+///     (T::whole(2) * height / gravity).sqrt()
+/// }
+/// assert_eq!(fall(5.0_f32, 10.0), 1.0);
+/// assert_eq!(fall(5.0_f64, 10.0), 1.0);
+/// assert_eq!((f32::NAME, f64::from_f64(0.5), 0.5_f32.to_f64()), ("f32", 0.5, 0.5));
+/// ```
 pub trait Real:
     Lane<Scalar = Self, Mask = bool, Array = [Self; 1]> + Num + PartialOrd + Display + LowerExp
 {
@@ -30,8 +42,8 @@ pub trait Real:
     /// allocates, for its alignment and its padding.
     type Block: Copy + Send + Sync + core::fmt::Debug;
 
-    /// A precision no finer than this one and faster, good enough to tell whom a
-    /// body cannot meet.
+    /// A precision no finer than this one and faster, good enough to rule out
+    /// contacts.
     type Coarse: Real;
 
     /// What the scene file and the summary call this precision.

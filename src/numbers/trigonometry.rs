@@ -40,6 +40,13 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
 ///
 /// `tail` is what rounding left out of `head`, a unit or two of its last place.
 /// The bounds are those of [`sin_cos`]; the sine of −0 is 0.
+///
+/// ```
+/// use carom::trigonometry::sin_cos_of_sum;
+/// let tail_of_pi = 1.2246467991473532e-16;
+/// let (sine, _) = sin_cos_of_sum(core::f64::consts::PI, tail_of_pi);
+/// assert!(sine.abs() < 1e-32);
+/// ```
 #[inline(always)]
 pub fn sin_cos_of_sum<L: Lane>(head: L, tail: L) -> (L, L) {
     let [quarter_turn, ..] = L::Scalar::QUARTER_TURN;

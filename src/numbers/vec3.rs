@@ -3,9 +3,18 @@
 use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use crate::lane::Lane;
+use crate::real::Real;
 
 /// A vector of space: as many vectors as the lane is wide.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// ```
+/// use carom::Vec3;
+///
+/// let (x, y) = (Vec3::new(1.0, 0.0, 0.0), Vec3::from([0.0, 1.0, 0.0]));
+/// assert_eq!(x.cross(y), Vec3::new(0.0, 0.0, 1.0));
+/// assert_eq!((x * 3.0 + y * 4.0).length(), 5.0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<L> {
     /// First component.
     pub x: L,
@@ -36,11 +45,34 @@ impl<L> From<[L; 3]> for Vec3<L> {
     }
 }
 
+impl<T: Real> Vec3<T> {
+    /// The nearest vector of another precision. It goes by way of `f64`.
+    ///
+    /// ```
+    /// use carom::Vec3;
+    /// assert_eq!(Vec3::new(0.1, 0.2, 0.5).cast::<f32>(), Vec3::new(0.1_f32, 0.2, 0.5));
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn cast<U: Real>(self) -> Vec3<U> {
+        let component = |value: T| U::from_f64(value.to_f64());
+        Vec3::new(component(self.x), component(self.y), component(self.z))
+    }
+}
+
 impl<L: Lane> Vec3<L> {
     /// The zero vector.
     pub const ZERO: Self = Self::new(L::ZERO, L::ZERO, L::ZERO);
 
     /// The same vector in every lane.
+    ///
+    /// ```
+    /// use carom::Vec3;
+    /// use wide::f64x4;
+    ///
+    /// let gravity = Vec3::<f64x4>::splat(Vec3::new(0.0, 0.0, -9.81));
+    /// assert_eq!(gravity.z.to_array(), [-9.81; 4]);
+    /// ```
     #[inline(always)]
     pub fn splat(value: Vec3<L::Scalar>) -> Self {
         Self::new(L::splat(value.x), L::splat(value.y), L::splat(value.z))
@@ -99,24 +131,21 @@ impl<L: Lane> Vec3<L> {
 
     /// Lane `k` is element `indices[k]` of the three columns.
     ///
+    /// ```
+    /// use carom::Vec3;
+    /// use wide::f64x4;
+    ///
+    /// let (x, y, z) = ([1.0, 2.0], [3.0, 4.0], [5.0, 6.0]);
+    /// let bodies = Vec3::<f64x4>::gather([&x, &y, &z], &[1, 0, 0, 1]);
+    /// assert_eq!(bodies.y.to_array(), [4.0, 3.0, 3.0, 4.0]);
+    /// ```
+    ///
     /// # Panics
     /// As [`Lane::gather`].
     #[inline(always)]
     pub fn gather(columns: [&[L::Scalar]; 3], indices: &[u32]) -> Self {
         let [x, y, z] = columns;
         Self::new(L::gather(x, indices), L::gather(y, indices), L::gather(z, indices))
-    }
-
-    /// Element `indices[k]` of the three columns becomes lane `k`.
-    ///
-    /// # Panics
-    /// As [`Lane::scatter`].
-    #[inline(always)]
-    pub fn scatter(self, columns: [&mut [L::Scalar]; 3], indices: &[u32]) {
-        let [x, y, z] = columns;
-        self.x.scatter(x, indices);
-        self.y.scatter(y, indices);
-        self.z.scatter(z, indices);
     }
 }
 
