@@ -1,4 +1,8 @@
-//! Contact: when two surfaces meet, and what they do to each other.
+//! Contact: when two surfaces touch, and what a collision does.
+//!
+//! *Contact* is that surfaces touch; a *collision* is a contact at which an
+//! impulse acts, since the bodies approach each other. [`contact_time`] and
+//! [`past_contact`] say when; [`collide`] gives the impulse, by a [`Law`].
 
 mod approach;
 mod fall;

@@ -48,6 +48,7 @@ use search::{Search, further, searcher};
 
 /// What it took to find collisions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Effort {
     /// Pairs whose contact was looked for.
     pub tried: u64,
