@@ -53,8 +53,8 @@ impl<T: Real> Column<T> {
     #[must_use]
     pub fn from_values(values: impl ExactSizeIterator<Item = T>, padding: T) -> Self {
         let mut column = Self::new(values.len(), padding);
-        for (place, value) in column.iter_mut().zip(values) {
-            *place = value;
+        for (slot, value) in column.iter_mut().zip(values) {
+            *slot = value;
         }
         column
     }

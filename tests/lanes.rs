@@ -219,18 +219,18 @@ where
     let bits = |values: &[L::Scalar]| values.iter().map(|v| v.to_bits64()).collect::<Vec<_>>();
     let width = L::WIDTH;
     let zero = L::Scalar::ZERO;
-    let mut place = [zero; 100];
+    let mut target = [zero; 100];
 
-    L::load(&column[3..]).store(&mut place[5..]);
-    assert_eq!(bits(&place[5..5 + width]), bits(&column[3..3 + width]));
-    assert_eq!(bits(&place[5 + width..]), bits(&vec![zero; 95 - width]));
+    L::load(&column[3..]).store(&mut target[5..]);
+    assert_eq!(bits(&target[5..5 + width]), bits(&column[3..3 + width]));
+    assert_eq!(bits(&target[5 + width..]), bits(&vec![zero; 95 - width]));
 
     for len in 0..=width {
-        let mut place = vec![zero; 32];
+        let mut target = vec![zero; 32];
         let tail = L::load_tail(&column[..len], L::Scalar::ONE);
-        tail.store(&mut place);
-        assert_eq!(bits(&place[..len]), bits(&column[..len]));
-        assert!(place[len..width].iter().all(|&padding| padding == L::Scalar::ONE));
+        tail.store(&mut target);
+        assert_eq!(bits(&target[..len]), bits(&column[..len]));
+        assert!(target[len..width].iter().all(|&padding| padding == L::Scalar::ONE));
     }
 
     let indices: Vec<u32> = (0..width as u32).map(|k| 99 - 3 * k).collect();

@@ -12,6 +12,8 @@
 //! J_t = −2 T / (1/m₁ + 1/m₂ + (l₁²/I₁ + l₂²/I₂) x·x)
 //! ```
 //!
+//! What a law changes is the factor −2 of either impulse ([`law`](super::law)).
+//!
 //! A normalised normal would bias the energy by up to 0.76 ε per collision
 //! where `|x|` is near a power of two. The arms `lᵢ x` are in proportion to the
 //! true distance, so angular momentum is conserved also where rounding or a

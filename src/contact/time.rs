@@ -26,7 +26,7 @@ pub struct ContactTime<L: Lane> {
 
 /// The terms of `|x + Vt|² = s²`, which both directions of time share.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Encounter<L> {
+pub(crate) struct ContactEquation<L> {
     speed_squared: L,
     /// `x·V`.
     moving_apart: L,
@@ -37,7 +37,7 @@ pub(crate) struct Encounter<L> {
     discriminant: L,
 }
 
-impl<L: Lane> Encounter<L> {
+impl<L: Lane> ContactEquation<L> {
     #[inline(always)]
     pub(crate) fn new(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Self {
         let speed_squared = relative.length_squared();
@@ -91,8 +91,8 @@ impl<L: Lane> Encounter<L> {
 /// ```
 #[inline(always)]
 pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> PastContact<L> {
-    let Encounter { speed_squared, moving_apart, overlap, discriminant } =
-        Encounter::new(offset, relative, reach);
+    let ContactEquation { speed_squared, moving_apart, overlap, discriminant } =
+        ContactEquation::new(offset, relative, reach);
     let met = discriminant.gt(L::ZERO) & speed_squared.gt(L::ZERO);
     let root = L::select(met, discriminant, L::ZERO).sqrt();
     let is_apart = moving_apart.gt(L::ZERO);
@@ -121,7 +121,7 @@ pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Pa
 /// ```
 #[inline(always)]
 pub fn contact_time<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> ContactTime<L> {
-    Encounter::new(offset, relative, reach).contact_time()
+    ContactEquation::new(offset, relative, reach).contact_time()
 }
 
 #[cfg(test)]

@@ -64,9 +64,9 @@ pub trait Real:
     /// that is a sum itself and whose products lose too little to matter.
     const SPLITTER: Self;
 
-    /// As many quarter turns as one multiplication `x·2/π` can count to within
+    /// The most quarter turns that one multiplication `x·2/π` can count to within
     /// 1/16 of one: `2^(digits − 6)`.
-    const QUARTER_TURNS_TOLD: Self;
+    const MOST_QUARTER_TURNS: Self;
 
     /// π/2 as a sum of three parts, greatest first: three times the digits of
     /// one number, which is what the worst cases of argument reduction need.
@@ -142,7 +142,7 @@ macro_rules! real {
             const ROUNDING_MAGIC: Self = 1.5 / $real::EPSILON;
             const WHOLE_FROM: Self = 1.0 / $real::EPSILON;
             const SPLITTER: Self = $splitter;
-            const QUARTER_TURNS_TOLD: Self = 1.0 / (32.0 * $real::EPSILON);
+            const MOST_QUARTER_TURNS: Self = 1.0 / (32.0 * $real::EPSILON);
             const QUARTER_TURN: [Self; 3] = $quarter_turn;
 
             #[inline(always)]
