@@ -58,7 +58,7 @@
 //!
 //! // A solid ball of mass 1 and radius ½ comes down on a rough floor.
 //! let mut ball = Party {
-//!     velocity: Vec3::new(1.0, 0.0, -1.0),
+//!     velocity: Vec3::new(1.0, 0.0, -1.0_f64),
 //!     spin: Vec3::new(0.0, 0.0, 0.0),
 //!     inverse_mass: 1.0,
 //!     inverse_inertia: 10.0,
