@@ -15,7 +15,7 @@
 mod common;
 
 use carom::contact::{Law, Party, Rough, Smooth, collide, contact_time};
-use carom::engine::{EventDriven, Stepped};
+use carom::engine::{Compiled, EventDriven, Stepped};
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
@@ -210,7 +210,7 @@ fn impulses<T: Real, W: Law<T>>(law: W) -> u64 {
 }
 
 /// The state of a built-in scene after some steps of the stepped engine.
-fn engine<T: Real>(name: &str, impact: Impact) -> u64 {
+fn engine<T: Compiled>(name: &str, impact: Impact) -> u64 {
     let mut scene = SceneFile::builtin(name).unwrap().build::<T>().unwrap();
     scene.stepped.impact = impact;
     let mut world = Stepped::new(scene).unwrap();
@@ -220,7 +220,7 @@ fn engine<T: Real>(name: &str, impact: Impact) -> u64 {
 
 /// The state of a built-in scene after some collisions of the event-driven
 /// engine.
-fn events<T: Real>(name: &str) -> u64 {
+fn events<T: Compiled>(name: &str) -> u64 {
     let scene = SceneFile::builtin(name).unwrap().build::<T>().unwrap();
     let mut world = EventDriven::new(scene).unwrap();
     world.advance_until(20_000, 1e3).unwrap();

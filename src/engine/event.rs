@@ -20,7 +20,7 @@ pub enum Partner<T> {
     Surroundings(u32),
 }
 
-/// What is called for each collision, if anything is.
+/// What receives the collisions, if anything does.
 pub type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
 
 /// One collision.

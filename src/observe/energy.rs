@@ -40,7 +40,7 @@ impl Energy {
             translational
                 .add(0.5 * mass * bodies.velocity_of(index).cast::<f64>().length_squared());
             rotational.add(0.5 * inertia * bodies.spin_of(index).cast::<f64>().length_squared());
-            potential.add(-mass * gravity.dot(bodies.position_of(index).cast::<f64>()));
+            potential.add(-mass * gravity.dot(bodies.position_of(index).cast()));
         }
         Self {
             translational: translational.value(),

@@ -3,80 +3,53 @@
 
 use core::ops::Range;
 
-use super::Encounters;
-use super::builder::SceneBuilder;
+use super::check::{Found, figures};
+use super::description::Description;
 use super::error::{Problem, SceneError};
 use super::neighbours::{Neighbours, largest, tolerance};
+use super::settings::Encounters;
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::space::PeriodicBox;
-use crate::surroundings::{Feature, Shape};
+use crate::surroundings::Shape;
 use crate::vec3::Vec3;
-
-/// A mistake of one body: the key of its entry, and the problem.
-pub(super) type Found = (usize, &'static str, Problem);
 
 /// Checks all bodies. Centres on the upper face of the periodic box move to
 /// the lower one, which is the same place.
 pub(super) fn bodies<T: Real>(
-    builder: &SceneBuilder<T>,
+    asked: &Description<T>,
     periodic: Option<PeriodicBox<T>>,
     mut bodies: Bodies<T>,
     ranges: &[Range<usize>],
 ) -> Result<Bodies<T>, SceneError> {
     let of_entry = |(body, key, problem): Found| {
         let entry = ranges.partition_point(|range| range.end <= body);
-        let dot = if key.is_empty() { "" } else { "." };
-        builder.origin.error(format!("spheres[{entry}]{dot}{key}"), problem)
+        asked.origin.error_in(&format!("spheres[{entry}]"), (key, problem))
     };
     figures(&bodies).map_err(of_entry)?;
     motion(&bodies).map_err(of_entry)?;
     orientation(&bodies).map_err(of_entry)?;
     if let Some(space) = &periodic {
-        if builder.encounters == Encounters::All {
-            sides(space, &bodies).map_err(|problem| builder.origin.error("periodic", problem))?;
+        if asked.encounters == Encounters::All {
+            sides(space, &bodies).map_err(|problem| asked.origin.error("periodic", problem))?;
         }
         wrap(space, &mut bodies).map_err(of_entry)?;
     }
-    if builder.encounters != Encounters::None {
-        for (index, given) in builder.surroundings.iter().enumerate() {
+    if asked.encounters != Encounters::None {
+        for (index, given) in asked.surroundings.iter().enumerate() {
             if let Some(space) = &periodic {
                 within(&given.rounded, space, &bodies).map_err(|problem| {
-                    builder.origin.error(format!("surroundings[{index}]"), problem)
+                    asked.origin.error(format!("surroundings[{index}]"), problem)
                 })?;
             }
             surroundings(index, &given.rounded, &bodies).map_err(of_entry)?;
         }
     }
-    if builder.encounters == Encounters::All {
+    if asked.encounters == Encounters::All {
         overlaps(periodic, &bodies).map_err(of_entry)?;
     }
     Ok(bodies)
-}
-
-/// Radii, masses and moments of inertia.
-pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
-    let figures =
-        [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
-    for (key, figure) in figures {
-        let values = match figure {
-            PerBody::Same(value) => core::slice::from_ref(value),
-            PerBody::Each(column) => column,
-        };
-        let wrong = values.iter().position(|value| !(*value > T::ZERO && value.is_finite()));
-        if let Some(body) = wrong {
-            let what = if key == "inertia" { "moment of inertia" } else { key };
-            let found = format!(
-                "such that the {what} of body {body} is {:?} in {}",
-                values[body].to_f64(),
-                T::NAME
-            );
-            let wanted = "it must be finite and greater than 0".to_owned();
-            return Err((body, "", Problem::Value { found, wanted }));
-        }
-    }
-    Ok(())
 }
 
 /// Places, velocities and spins.
@@ -119,7 +92,7 @@ fn orientation<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
 /// half a side away: that has to be a contact distance or more.
 fn sides<T: Real>(space: &PeriodicBox<T>, bodies: &Bodies<T>) -> Result<(), Problem> {
     let needed = 4.0 * bodies.radius.greatest().to_f64();
-    let sides = space.sides().to_array().map(T::to_f64);
+    let sides = space.sides().cast::<f64>().to_array();
     let limit = needed * (1.0 - 8.0 * T::EPSILON.to_f64());
     match sides.iter().find(|side| **side < limit) {
         None => Ok(()),
@@ -164,13 +137,8 @@ fn within<T: Real>(
     space: &PeriodicBox<T>,
     bodies: &Bodies<T>,
 ) -> Result<(), Problem> {
-    let [lower, upper] = match shape {
-        Shape::Cuboid(cuboid) => [cuboid.lower, cuboid.upper],
-        Shape::FixedSphere(sphere) => {
-            let reach = [sphere.radius; 3].into();
-            [sphere.center - reach, sphere.center + reach]
-        }
-        Shape::Plane(_) => return Ok(()),
+    let Some([lower, upper]) = shape.bounds() else {
+        return Ok(());
     };
     let radius = bodies.radius.greatest();
     let [low, high] = [(lower - space.lower).to_array(), (space.upper - upper).to_array()];
@@ -190,12 +158,12 @@ fn within<T: Real>(
 fn surroundings<T: Real>(index: usize, shape: &Shape<T>, bodies: &Bodies<T>) -> Result<(), Found> {
     let epsilon = T::EPSILON.to_f64();
     for feature in shape.features() {
-        let far = farthest(&feature);
+        let far = feature.farthest();
         for body in 0..bodies.len() {
             let center = bodies.position_of(body);
             let radius = bodies.radius.of(body);
             let gap = feature.clearance(center, radius).gap.to_f64();
-            let coordinate = largest(center.to_array().map(T::to_f64)) + far;
+            let coordinate = largest(center.cast().to_array()) + far;
             if gap >= -tolerance(epsilon, coordinate, radius.to_f64()) {
                 continue;
             }
@@ -214,16 +182,6 @@ fn surroundings<T: Real>(index: usize, shape: &Shape<T>, bodies: &Bodies<T>) -> 
         }
     }
     Ok(())
-}
-
-/// The largest coordinate that a feature's clearance is made of.
-fn farthest<T: Real>(feature: &Feature<T>) -> f64 {
-    let far = |point: Vec3<T>| largest(point.to_array().map(T::to_f64));
-    match feature {
-        Feature::Plane(plane) => far(plane.point),
-        Feature::Cuboid(cuboid) => far(cuboid.lower).max(far(cuboid.upper)),
-        Feature::FixedSphere(sphere) => far(sphere.center) + sphere.radius.to_f64(),
-    }
 }
 
 /// No two bodies overlap. The largest go first, and each then meets only

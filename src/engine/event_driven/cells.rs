@@ -4,6 +4,13 @@
 //! bodies can only touch if their cells are neighbours. Who is in a cell is
 //! kept up as bodies cross from one to the next.
 
+mod axis;
+
+use std::collections::BTreeMap;
+
+pub(super) use axis::Ends;
+use axis::{Axis, BLOCK, NOWHERE, WIDE, count, number, numbers};
+
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -18,36 +25,16 @@ const FAR_APART: f64 = 1.5;
 /// Side of a cell in mean distances then.
 const FAR_SIDE: f64 = 0.95;
 
-/// The most cells along an axis.
-const MOST_CELLS: i64 = 1 << 20;
+/// The most cells, for each body or fixed part and besides: bodies in dense
+/// order fill some four cells each.
+const CELLS_EACH: u64 = 8;
+const CELLS_BESIDES: u64 = 1 << 12;
 
-/// No cell.
-const NOWHERE: u32 = u32::MAX;
+/// As many cells have numbers that three parts add up to without overflow.
+const MOST_NUMBERS: u64 = 1 << 30;
 
 /// Bodies that a block of a cell has room for, and their count.
 const STRIDE: usize = 8;
-
-/// How space is bounded along one axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ends {
-    /// The last cell is a neighbour of the first: a periodic box, or open
-    /// space, in which cells far apart share a place in memory.
-    Joined,
-    /// Nothing is beyond the last cell.
-    Closed,
-}
-
-/// The cells along one axis.
-#[derive(Clone, Debug)]
-struct Axis<T> {
-    lower: T,
-    side: T,
-    count: i32,
-    ends: Ends,
-    /// For each cell what the one before it, it and the one after it add to
-    /// the number of a cell.
-    parts: Vec<[u32; 3]>,
-}
 
 /// The grid and who is in its cells.
 #[derive(Debug)]
@@ -59,6 +46,12 @@ pub(super) struct Cells<T> {
     /// The places of a cell's bodies, in as many blocks as the fullest cell
     /// needs; the last number of the first one is their count.
     places: Vec<[u32; STRIDE]>,
+    /// Up to so many blocks all cells grow with the fullest one.
+    most_blocks: usize,
+    /// The bodies that are more than a cell's blocks have room for.
+    spilled: BTreeMap<u32, Vec<u32>>,
+    /// The most bodies of a cell that has spilled.
+    fullest: usize,
 }
 
 /// The region that the grid covers.
@@ -70,48 +63,70 @@ pub(super) struct Region<T> {
 }
 
 impl<T: Real> Cells<T> {
-    /// A grid of empty cells that suits `len` bodies which touch at distances of
-    /// up to `reach`, and how far apart the bodies are on the average.
-    pub fn fitting(region: Region<T>, reach: T, len: usize) -> (Self, T) {
+    /// A grid of empty cells that suits `len` bodies among `parts` bounded fixed
+    /// parts, which touch at distances of up to `reach`, and how far apart the
+    /// bodies are on the average.
+    pub fn fitting(region: Region<T>, reach: T, len: usize, parts: usize) -> (Self, T) {
         let extent = (region.upper - region.lower).to_array();
         let extent = extent.map(|side| side.greater(reach));
         let volume: f64 = extent.iter().map(|side| side.to_f64()).product();
-        let mean = (volume / len.max(1) as f64).cbrt();
-        let spacing = T::from_f64(if mean > 0.0 { mean } else { 1.0 }).greater(reach);
-        let is_far = mean > FAR_APART * reach.to_f64();
-        let wanted = if is_far { T::from_f64(FAR_SIDE * mean) } else { reach };
-        (Self::new(region, reach, wanted), spacing)
+        let mean = |count: usize| (volume / count.max(1) as f64).cbrt();
+        let distance = mean(len);
+        let spacing = T::from_f64(if distance > 0.0 { distance } else { 1.0 }).greater(reach);
+        let distance = mean(len + parts);
+        let is_far = distance > FAR_APART * reach.to_f64();
+        let wanted = if is_far { T::from_f64(FAR_SIDE * distance) } else { reach };
+        let most = CELLS_BESIDES + CELLS_EACH * (len + parts) as u64;
+        (Self::new(region, reach, wanted, most.min(MOST_NUMBERS)), spacing)
     }
 
-    /// A grid of empty cells with sides of at least `reach`, of `wanted` if that
-    /// is more.
-    fn new(region: Region<T>, reach: T, wanted: T) -> Self {
+    /// A grid of at most `most` empty cells with sides of at least `reach`, of
+    /// `wanted` if that is more.
+    fn new(region: Region<T>, reach: T, wanted: T, most: u64) -> Self {
         let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
         let farthest = lower.iter().chain(&upper).fold(T::ZERO, |most, c| most.greater(c.abs()));
         // Far from the origin places are rounded by more than a margin for
         // bodies that stop at a face.
         let rounding = farthest * T::EPSILON * T::whole(64);
         let least = reach * T::ratio(MARGIN + 4, MARGIN) + rounding * T::whole(4);
-        let wanted = wanted.greater(least);
-        let mut axes = core::array::from_fn(|k| {
-            let extent = upper[k] - lower[k];
-            let fits = |side: T| (extent / side).whole_part().clamp(1, MOST_CELLS) as i32;
-            let mut count = fits(wanted);
-            // Every cell of a narrow box neighbours every other one.
-            if region.ends == Ends::Joined && count < 4 {
-                count = fits(least).max(2);
+        let extent: [T; 3] = core::array::from_fn(|k| upper[k] - lower[k]);
+        let mut wanted = wanted.greater(least);
+        let counts = loop {
+            let counts = extent.map(|extent| count(extent, least, wanted, region.ends));
+            // No extent has more than its few least cells once it is this wide.
+            if numbers(counts) <= most || !wanted.is_finite() {
+                break counts;
             }
-            let side = extent / T::whole(count);
-            Axis { lower: lower[k], side, count, ends: region.ends, parts: Vec::new() }
+            wanted = wanted * T::ratio(5, 4);
+        };
+        let mut axes = core::array::from_fn(|k| Axis {
+            lower: lower[k],
+            side: extent[k] / T::whole(counts[k]),
+            count: counts[k],
+            ends: region.ends,
+            parts: Vec::new(),
         });
         let numbers = number(&mut axes);
         let margins = axes.each_ref().map(|axis| axis.side * T::ratio(1, MARGIN) + rounding);
-        Self { axes, margin: Vec3::from(margins), blocks: 1, places: vec![[0; STRIDE]; numbers] }
+        Self {
+            axes,
+            margin: Vec3::from(margins),
+            blocks: 1,
+            places: vec![[0; STRIDE]; numbers],
+            most_blocks: 2 * most as usize,
+            spilled: BTreeMap::new(),
+            fullest: 0,
+        }
     }
 
     /// Whether the box is so narrow along an axis that two images of a pair can
     /// be near at once.
     pub fn is_narrow(&self, axis: usize) -> bool {
+        self.axes[axis].ends == Ends::Joined && self.axes[axis].count < WIDE
+    }
+
+    /// Whether every cell neighbours every other one along an axis.
+    fn are_all_neighbours(&self, axis: usize) -> bool {
         self.axes[axis].ends == Ends::Joined && self.axes[axis].count < 4
     }
 
@@ -150,17 +165,10 @@ impl<T: Real> Cells<T> {
         2.1 * sides.iter().map(|side| side * side).sum::<f64>().sqrt()
     }
 
-    /// How many numbers cells have.
-    pub fn numbers(&self) -> usize {
-        self.places.len() / self.blocks
-    }
-
     /// Every cell that a body of a radius can be in when it touches what lies
     /// within `bounds`.
     pub fn each_in(&self, bounds: [Vec3<T>; 2], radius: T, mut visit: impl FnMut(u32)) {
-        let reach = Vec3::new(radius, radius, radius) + self.margin + self.margin;
-        let lower = self.cell_of(bounds[0] - reach);
-        let upper = self.cell_of(bounds[1] + reach);
+        let [lower, upper] = self.cells_at(bounds, radius);
         let span = |k: usize| lower[k]..=upper[k].min(lower[k] + self.axes[k].count - 1);
         for z in span(2) {
             for y in span(1) {
@@ -171,10 +179,28 @@ impl<T: Real> Cells<T> {
         }
     }
 
-    /// Every cell that is within a distance of something: `is_near` says
-    /// whether a point's distance is at most a length.
-    pub fn each_near(&self, is_near: impl Fn(Vec3<T>, T) -> bool, mut visit: impl FnMut(u32)) {
+    /// The first and the last cell that a body of a radius can be in when it
+    /// touches what lies within `bounds`.
+    fn cells_at(&self, bounds: [Vec3<T>; 2], radius: T) -> [[i32; 3]; 2] {
+        let reach = Vec3::new(radius, radius, radius) + self.margin + self.margin;
+        [self.cell_of(bounds[0] - reach), self.cell_of(bounds[1] + reach)]
+    }
+
+    /// Every cell of the first box that is within a distance of something:
+    /// `is_near` says whether a point's distance is at most a length. What is
+    /// within `bounds` is near only to where a body of the radius touches them.
+    pub fn each_near(
+        &self,
+        bounds: Option<[Vec3<T>; 2]>,
+        radius: T,
+        is_near: impl Fn(Vec3<T>, T) -> bool,
+        mut visit: impl FnMut(u32),
+    ) {
         let counts = self.axes.each_ref().map(|axis| axis.count);
+        let [first, last] = match bounds {
+            None => [[0; 3], counts],
+            Some(bounds) => self.cells_at(bounds, radius),
+        };
         // Block by block first: most are far from everything.
         let middle = |from: [i32; 3], sides: i32| -> (Vec3<T>, T) {
             let half = |axis: &Axis<T>| axis.side * T::ratio(sides, 2);
@@ -190,8 +216,11 @@ impl<T: Real> Cells<T> {
             let (center, reach) = middle(from, sides);
             is_near(center, reach)
         };
-        let blocks = counts.map(|count| (0..count).step_by(BLOCK as usize));
-        let [across, along, up] = blocks;
+        let within = |k: usize, cell: i32| cell >= first[k] && cell <= last[k] && cell < counts[k];
+        let [across, along, up] = core::array::from_fn(|k| {
+            let start = first[k].max(0) / BLOCK * BLOCK;
+            (start..counts[k].min(last[k].saturating_add(1))).step_by(BLOCK as usize)
+        });
         for z in up {
             for y in along.clone() {
                 for x in across.clone() {
@@ -200,7 +229,7 @@ impl<T: Real> Cells<T> {
                     }
                     for k in 0..BLOCK * BLOCK * BLOCK {
                         let cell = [x + k % BLOCK, y + k / BLOCK % BLOCK, z + k / (BLOCK * BLOCK)];
-                        if (0..3).all(|k| cell[k] < counts[k]) && near(cell, 1) {
+                        if (0..3).all(|k| within(k, cell[k])) && near(cell, 1) {
                             visit(self.number_of(cell));
                         }
                     }
@@ -254,7 +283,7 @@ impl<T: Real> Cells<T> {
     #[inline(always)]
     pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> usize {
         let mut lines = self.lines(cell);
-        if !self.is_narrow(axis) {
+        if !self.are_all_neighbours(axis) {
             let part = lines[axis][if up { 2 } else { 0 }];
             lines[axis] = [part, NOWHERE, NOWHERE];
         }
@@ -295,15 +324,27 @@ impl<T: Real> Cells<T> {
         let start = number as usize * self.blocks;
         let places = self.places[start..start + self.blocks].as_flattened();
         let count = places[STRIDE - 1] as usize;
-        let first = count.min(STRIDE - 1);
+        let within = count.min(self.room());
+        let first = within.min(STRIDE - 1);
         found[len..len + first].copy_from_slice(&places[..first]);
-        found[len + first..len + count].copy_from_slice(&places[STRIDE..STRIDE + count - first]);
+        found[len + first..len + within].copy_from_slice(&places[STRIDE..STRIDE + within - first]);
+        if count > within
+            && let Some(spilled) = self.spilled.get(&number)
+        {
+            found[len + within..len + count].copy_from_slice(spilled);
+        }
         len + count
     }
 
     /// How many places a buffer for [`around`](Cells::around) must have.
     pub fn most(&self) -> usize {
-        (27 * self.blocks * STRIDE).next_multiple_of(16) + 2 * STRIDE
+        let most = (self.blocks * STRIDE).max(self.fullest);
+        (27 * most).next_multiple_of(16) + 2 * STRIDE
+    }
+
+    /// How many bodies the blocks of a cell have room for.
+    fn room(&self) -> usize {
+        self.blocks * STRIDE - 1
     }
 
     /// The places of a cell's bodies and their count, as they lie in memory.
@@ -314,23 +355,53 @@ impl<T: Real> Cells<T> {
 
     /// Puts a body into a cell.
     pub fn insert(&mut self, cell: [i32; 3], place: u32) {
-        if self.places_in(cell)[STRIDE - 1] as usize == self.blocks * STRIDE - 1 {
+        let count = self.places_in(cell)[STRIDE - 1] as usize;
+        if count >= self.room() {
             self.grow();
         }
-        let places = self.places_in(cell);
-        let count = places[STRIDE - 1] as usize;
-        places[slot(count)] = place;
-        places[STRIDE - 1] += 1;
+        if count < self.room() {
+            self.places_in(cell)[slot(count)] = place;
+        } else {
+            self.spilled.entry(self.number_of(cell)).or_default().push(place);
+            self.fullest = self.fullest.max(count + 1);
+        }
+        self.places_in(cell)[STRIDE - 1] += 1;
     }
 
     /// Takes a body out of a cell.
     pub fn remove(&mut self, cell: [i32; 3], place: u32) {
+        let room = self.room();
         let places = self.places_in(cell);
         let count = places[STRIDE - 1] as usize;
-        if let Some(at) = (0..count).find(|&k| places[slot(k)] == place) {
+        if count > room {
+            self.remove_spilled(cell, place);
+        } else if let Some(at) = (0..count).find(|&k| places[slot(k)] == place) {
             places[slot(at)] = places[slot(count - 1)];
             places[STRIDE - 1] -= 1;
         }
+    }
+
+    /// Takes a body out of a cell with more bodies than its blocks have room for.
+    #[cold]
+    fn remove_spilled(&mut self, cell: [i32; 3], place: u32) {
+        let (number, room) = (self.number_of(cell), self.room());
+        let Some(spilled) = self.spilled.get_mut(&number) else { return };
+        let last = if let Some(at) = spilled.iter().position(|&other| other == place) {
+            spilled.swap_remove(at);
+            None
+        } else {
+            spilled.pop()
+        };
+        if spilled.is_empty() {
+            self.spilled.remove(&number);
+        }
+        let places = self.places_in(cell);
+        if let Some(last) = last
+            && let Some(at) = (0..room).find(|&k| places[slot(k)] == place)
+        {
+            places[slot(at)] = last;
+        }
+        places[STRIDE - 1] -= 1;
     }
 
     /// Takes all bodies out.
@@ -338,12 +409,17 @@ impl<T: Real> Cells<T> {
         for block in self.places.iter_mut().step_by(self.blocks) {
             block[STRIDE - 1] = 0;
         }
+        self.spilled.clear();
     }
 
-    /// Doubles the room in each cell.
+    /// Doubles the room in each cell, unless that takes too much memory: what
+    /// one cell needs, all get.
     #[cold]
     fn grow(&mut self) {
         let blocks = self.blocks * 2;
+        if self.places.len() * 2 > self.most_blocks {
+            return;
+        }
         let mut places = vec![[0; STRIDE]; self.places.len() * 2];
         for (to, from) in places.chunks_mut(blocks).zip(self.places.chunks(self.blocks)) {
             to[..from.len()].copy_from_slice(from);
@@ -357,53 +433,7 @@ impl<T: Real> Cells<T> {
     }
 }
 
-impl<T: Real> Axis<T> {
-    /// A coordinate that bodies can have: those beyond closed ends belong to
-    /// the last cell.
-    fn held(&self, cell: i32) -> i32 {
-        match self.ends {
-            Ends::Closed => cell.clamp(0, self.count - 1),
-            Ends::Joined => cell,
-        }
-    }
-
-    /// Where in memory a coordinate is.
-    #[inline(always)]
-    fn folded(&self, cell: i32) -> i32 {
-        if (cell as u32) < self.count as u32 { cell } else { cell.rem_euclid(self.count) }
-    }
-}
-
 /// Where the body of a number is among a cell's places.
 fn slot(number: usize) -> usize {
     number + usize::from(number >= STRIDE - 1)
-}
-
-/// Cells along the side of a block that lies together in memory.
-const BLOCK: i32 = 4;
-
-/// Numbers the cells block by block, and returns how many numbers there are.
-fn number<T>(axes: &mut [Axis<T>; 3]) -> usize {
-    let counts = axes.each_ref().map(|axis| axis.count as u32);
-    let sides = counts.map(|count| count.min(BLOCK as u32));
-    let within = [1, sides[0], sides[0] * sides[1]];
-    let whole = sides[0] * sides[1] * sides[2];
-    let blocks: [u32; 3] = core::array::from_fn(|k| counts[k].div_ceil(sides[k]));
-    let between = [whole, whole * blocks[0], whole * blocks[0] * blocks[1]];
-    for (k, axis) in axes.iter_mut().enumerate() {
-        let part = |cell: i32| {
-            let (block, inside) = (cell as u32 / sides[k], cell as u32 % sides[k]);
-            block * between[k] + inside * within[k]
-        };
-        let count = axis.count;
-        let neighbour = |cell: i32| match axis.ends {
-            _ if (0..count).contains(&cell) => part(cell),
-            Ends::Joined if count > 2 => part(cell.rem_euclid(count)),
-            // With two cells each is the other's only neighbour.
-            _ => NOWHERE,
-        };
-        axis.parts =
-            (0..count).map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)]).collect();
-    }
-    (between[2] * blocks[2]) as usize
 }

@@ -6,21 +6,75 @@ use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
 /// An image of a feature.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Image {
     pub feature: u32,
     /// Its number among the images of the box.
     pub image: u32,
 }
 
+/// The most entries of all lists, for each feature's image and besides. Where
+/// there were more, several cells share a list.
+const ENTRIES_EACH: usize = 64;
+const ENTRIES_BESIDES: usize = 1 << 16;
+
+/// How many cells are looked at for each such entry, before all share one list.
+const LOOKS: usize = 8;
+
+/// By so many binary digits fewer tell lists apart when more cells share one:
+/// twice as many cells along each side.
+const SHARED_STEP: u32 = 3;
+
+/// All cells share one list.
+const ALL: u32 = 30;
+
 /// The features near each cell.
 #[derive(Debug, Default)]
 pub(super) struct Near {
     /// Those near everywhere.
     everywhere: Vec<Image>,
-    /// Where each cell's features start in `images`.
+    /// The number of a cell's list is its own without so many last digits.
+    shared: u32,
+    /// Where each list starts in `images`.
     starts: Vec<u32>,
     images: Vec<Image>,
+}
+
+/// Lists in the making: which image is on which list, image by image.
+struct Lists {
+    entries: Vec<(Image, u32)>,
+    shared: u32,
+    most: usize,
+    looks: usize,
+}
+
+impl Lists {
+    fn new(images: usize) -> Self {
+        let most = ENTRIES_BESIDES + ENTRIES_EACH * images;
+        Self { entries: Vec::new(), shared: 0, most, looks: LOOKS * most }
+    }
+
+    /// Puts an image on the list of a cell.
+    fn put(&mut self, image: Image, cell: u32) {
+        self.looks = self.looks.saturating_sub(1);
+        if self.looks == 0 && self.shared < ALL {
+            self.share(ALL - self.shared);
+        }
+        let entry = (image, cell >> self.shared);
+        if self.entries.last() != Some(&entry) {
+            self.entries.push(entry);
+        }
+        while self.entries.len() > self.most && self.shared < ALL {
+            self.share(SHARED_STEP);
+        }
+    }
+
+    fn share(&mut self, digits: u32) {
+        self.shared += digits;
+        self.entries.iter_mut().for_each(|entry| entry.1 >>= digits);
+        self.entries.sort_unstable();
+        self.entries.dedup();
+    }
 }
 
 impl Near {
@@ -33,36 +87,42 @@ impl Near {
         radius: T,
     ) -> Self {
         let mut near = Self::default();
-        let mut found: Vec<(u32, Image)> = Vec::new();
+        let mut lists = Lists::new(features.len() * images.len());
         let is_open = ends == Ends::Joined && images.len() == 1;
         for (number, feature) in features.iter().enumerate() {
+            let bounds = feature.bounds();
             for (image, shift) in images.iter().enumerate() {
                 let this = Image { feature: number as u32, image: image as u32 };
-                if is_open {
-                    match feature.bounds() {
-                        None => near.everywhere.push(this),
-                        Some(bounds) => {
-                            cells.each_in(bounds, radius, |cell| found.push((cell, this)))
-                        }
-                    }
+                if is_open && bounds.is_none() {
+                    near.everywhere.push(this);
+                } else if lists.shared == ALL {
+                    lists.put(this, 0);
+                } else if let Some(bounds) = bounds.filter(|_| is_open) {
+                    cells.each_in(bounds, radius, |cell| lists.put(this, cell));
                 } else {
+                    let bounds = bounds.map(|bounds| bounds.map(|corner| corner + *shift));
                     let is_near = |center: Vec3<T>, reach: T| {
                         feature.clearance(center - *shift, radius).gap.le(reach)
                     };
-                    cells.each_near(is_near, |cell| found.push((cell, this)));
+                    cells.each_near(bounds, radius, is_near, |cell| lists.put(this, cell));
                 }
             }
         }
-        found.sort_by_key(|&(cell, _)| cell);
-        if !found.is_empty() {
-            near.starts = vec![0; cells.numbers() + 1];
-            for &(cell, _) in &found {
-                near.starts[cell as usize + 1] += 1;
+        let Lists { mut entries, shared, .. } = lists;
+        // Where two images of a cell fold into one place, or cells share a list.
+        entries.sort_unstable();
+        entries.dedup();
+        entries.sort_by_key(|&(_, list)| list);
+        if let Some(&(_, last)) = entries.last() {
+            near.shared = shared;
+            near.starts = vec![0; last as usize + 2];
+            for &(_, list) in &entries {
+                near.starts[list as usize + 1] += 1;
             }
             for k in 1..near.starts.len() {
                 near.starts[k] += near.starts[k - 1];
             }
-            near.images = found.into_iter().map(|(_, image)| image).collect();
+            near.images = entries.into_iter().map(|(image, _)| image).collect();
         }
         near
     }
@@ -80,7 +140,8 @@ impl Near {
     /// The features near the cell of a number.
     #[inline]
     pub fn of(&self, cell: u32) -> &[Image] {
-        match self.starts.get(cell as usize..cell as usize + 2) {
+        let list = (cell >> self.shared) as usize;
+        match self.starts.get(list..list + 2) {
             Some(&[start, end]) => &self.images[start as usize..end as usize],
             _ => &[],
         }

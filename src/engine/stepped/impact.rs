@@ -58,19 +58,19 @@ pub(super) struct Impacts<S, W> {
     pub within_step: bool,
 }
 
-/// The places of up to a pack's bodies, and their indices in the scene.
-struct Places {
-    places: [u32; WIDEST],
+/// The slots of up to a pack's bodies, and their indices in the scene.
+struct Slots {
+    slots: [u32; WIDEST],
     indices: [u32; WIDEST],
 }
 
-impl Places {
+impl Slots {
     #[inline(always)]
-    fn new<T: Real>(state: &State<T>, width: usize, place: impl Fn(usize) -> u32) -> Self {
-        let mut these = Self { places: [0; WIDEST], indices: [0; WIDEST] };
+    fn new<T: Real>(state: &State<T>, width: usize, slot: impl Fn(usize) -> u32) -> Self {
+        let mut these = Self { slots: [0; WIDEST], indices: [0; WIDEST] };
         for k in 0..width {
-            these.places[k] = place(k);
-            these.indices[k] = state.index[place(k) as usize];
+            these.slots[k] = slot(k);
+            these.indices[k] = state.index[slot(k) as usize];
         }
         these
     }
@@ -112,11 +112,11 @@ impl<S, W> Impacts<S, W> {
         S: Space<T>,
         W: Laws<T>,
     {
-        let first = Places::new(state, L::WIDTH, |k| contacts[k].a);
-        let second = Places::new(state, L::WIDTH, |k| contacts[k].b);
+        let first = Slots::new(state, L::WIDTH, |k| contacts[k].a);
+        let second = Slots::new(state, L::WIDTH, |k| contacts[k].b);
         let mut a = party::<L, T, W>(state, &first);
         let mut b = party::<L, T, W>(state, &second);
-        let mut offset = offset::<L, T, S>(state, self.space, &first.places, &second.places);
+        let mut offset = offset::<L, T, S>(state, self.space, &first.slots, &second.slots);
         if self.within_step {
             offset -= (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
         }
@@ -126,8 +126,8 @@ impl<S, W> Impacts<S, W> {
                 b.share = L::ratio(1, 2);
             }
             PerBody::Each(radius) => {
-                let first = L::gather(radius, &first.places);
-                let second = L::gather(radius, &second.places);
+                let first = L::gather(radius, &first.slots);
+                let second = L::gather(radius, &second.slots);
                 let reach = first + second;
                 a.share = first / reach;
                 b.share = second / reach;
@@ -178,10 +178,10 @@ impl<S, W> Impacts<S, W> {
         S: Space<T>,
         W: Laws<T>,
     {
-        let places = Places::new(state, L::WIDTH, |k| contacts[k].a);
-        let mut a = party::<L, T, W>(state, &places);
+        let slots = Slots::new(state, L::WIDTH, |k| contacts[k].a);
+        let mut a = party::<L, T, W>(state, &slots);
         a.share = L::ONE;
-        let mut center = gather::<L>(&state.position, &places.places);
+        let mut center = gather::<L>(&state.position, &slots.slots);
         let at_end = a.velocity;
         if self.within_step {
             let ago = L::from_fn(|k| contacts[k].ago);
@@ -192,7 +192,7 @@ impl<S, W> Impacts<S, W> {
         let at_contact = a.velocity;
         let radius = match &state.radius {
             PerBody::Same(radius) => L::splat(*radius),
-            PerBody::Each(radius) => L::gather(radius, &places.places),
+            PerBody::Each(radius) => L::gather(radius, &slots.slots),
         };
         let arm = feature.clearance(center, radius).arm;
         let law = self.laws.between(one_material);
@@ -211,9 +211,9 @@ fn one_material(_: usize) -> [u32; 2] {
     [0; 2]
 }
 
-/// The bodies at some places, their shares of the offset still open.
+/// The bodies at some slots, their shares of the offset still open.
 #[inline(always)]
-fn party<L, T, W>(state: &State<T>, places: &Places) -> Party<L>
+fn party<L, T, W>(state: &State<T>, slots: &Slots) -> Party<L>
 where
     L: Lane<Scalar = T>,
     T: Real,
@@ -221,11 +221,11 @@ where
 {
     let cold = |figure: &PerBody<T>| match figure {
         PerBody::Same(value) => L::splat(*value),
-        PerBody::Each(column) => L::gather(column, &places.indices),
+        PerBody::Each(column) => L::gather(column, &slots.indices),
     };
     Party {
-        velocity: gather(&state.velocity, &places.places),
-        spin: if W::CHANGES_SPINS { gather(&state.spin, &places.indices) } else { Vec3::ZERO },
+        velocity: gather(&state.velocity, &slots.slots),
+        spin: if W::CHANGES_SPINS { gather(&state.spin, &slots.indices) } else { Vec3::ZERO },
         inverse_mass: cold(&state.inverse_mass),
         inverse_inertia: if W::CHANGES_SPINS { cold(&state.inverse_inertia) } else { L::ZERO },
         share: L::ZERO,

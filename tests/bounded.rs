@@ -1,0 +1,130 @@
+//! Memory is bounded by the number of bodies and of fixed parts, whatever their
+//! sizes and distances. An allocation beyond the bound aborts the tests.
+
+use std::alloc::System;
+use std::sync::{Mutex, PoisonError};
+
+use approx::assert_abs_diff_eq;
+use cap::Cap;
+use carom::bodies::Bodies;
+use carom::engine::{Compiled, EventDriven};
+use carom::real::Real;
+use carom::scene::{EngineKind, Scene, SceneBuilder, Sphere, Spheres};
+use carom::space::PeriodicBox;
+use carom::surroundings::{Cuboid, FixedSphere};
+
+#[global_allocator]
+static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
+
+/// Bytes that any scene may take, and for each body or fixed part.
+const BESIDES: usize = 64 << 20;
+const EACH: usize = 2 << 10;
+
+/// Builds a scene of so many bodies and fixed parts and runs it event by event,
+/// within the bound of memory.
+fn run<T: Compiled>(count: usize, duration: f64, scene: SceneBuilder<T>) -> Bodies<T> {
+    // The limit is one for all tests.
+    static ALONE: Mutex<()> = Mutex::new(());
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    ALLOCATOR.set_limit(ALLOCATOR.allocated() + BESIDES + EACH * count).unwrap();
+    let mut world = EventDriven::new(scene.build().unwrap()).unwrap();
+    world.advance(duration).unwrap();
+    let bodies = world.bodies();
+    drop(world);
+    ALLOCATOR.set_limit(usize::MAX).unwrap();
+    bodies
+}
+
+fn scene<T: Real>() -> SceneBuilder<T> {
+    Scene::builder().engine(EngineKind::EventDriven)
+}
+
+fn ball(x: f64, y: f64, z: f64) -> Sphere {
+    Sphere::new([x, y, z]).radius(0.5)
+}
+
+#[test]
+fn two_spheres_far_apart() {
+    for distance in [1e3, 1e7, 1e12, 1e30] {
+        let second = ball(distance, distance, distance).velocity([-distance, 0.0, 0.0]);
+        let bodies = run(2, 0.5, scene::<f64>().sphere(ball(0.0, 0.0, 0.0)).sphere(second));
+        assert_eq!(bodies.position_of(1).x, 0.5 * distance);
+        let on_a_line = ball(distance, 0.0, 0.0).velocity([-1.0, 0.0, 0.0]);
+        run(2, 1.0, scene::<f64>().sphere(ball(0.0, 0.0, 0.0)).sphere(on_a_line));
+    }
+}
+
+#[test]
+fn few_in_a_large_periodic_box() {
+    let dilute = Spheres::random(10).radius(0.5).temperature(1.0);
+    run(10, 1.0, scene::<f64>().periodic(PeriodicBox::new([0.0; 3], [1e3; 3])).spheres(dilute));
+    let two = scene::<f64>()
+        .periodic(PeriodicBox::new([0.0; 3], [1e7; 3]))
+        .sphere(ball(1.0, 1.0, 1.0))
+        .sphere(ball(9e6, 9e6, 9e6));
+    run(2, 1.0, two);
+    let tiny = Spheres::random(20).radius(1e-19).mass(1e38).temperature(1e38);
+    run(20, 1.0, scene::<f32>().periodic(PeriodicBox::new([0.0; 3], [1.0; 3])).spheres(tiny));
+}
+
+#[test]
+fn a_small_ball_at_a_large_fixed_sphere() {
+    for (radius, duration) in [(0.01, 1.0), (1e-6, 1.0)] {
+        let ball = Sphere::new([-10.5, 0.0, 0.0]).radius(radius).velocity([1.0, 0.0, 0.0]);
+        let scene =
+            scene::<f64>().surroundings(FixedSphere::solid([0.0; 3], 10.0)).sphere(ball.mass(1e-3));
+        let bodies = run(2, duration, scene);
+        // There and back.
+        let x = -(10.0 + radius) - (duration - (0.5 - radius));
+        assert_abs_diff_eq!(bodies.position_of(0).x, x, epsilon = 1e-12);
+        assert_eq!(bodies.velocity_of(0).x, -1.0);
+    }
+}
+
+#[test]
+fn a_marble_over_a_slab() {
+    let slab = Cuboid::solid([-10.0, -10.0, -1.0], [10.0, 10.0, 0.0]);
+    let marble = Sphere::new([0.0, 0.0, 0.108]).radius(0.008);
+    let scene = scene::<f64>().gravity([0.0, 0.0, -10.0]).surroundings(slab).sphere(marble);
+    // At the top again after its third bounce.
+    let bodies = run(2, 6.0 * (0.02_f64).sqrt(), scene);
+    assert_abs_diff_eq!(bodies.position_of(0).z, 0.108, epsilon = 1e-9);
+}
+
+#[test]
+fn a_crowd_and_one_far_away() {
+    let crowd = Spheres::random(2_000).radius(0.01).within([0.0; 3], [1.0; 3]).temperature(1.0);
+    let scene = scene::<f64>().spheres(crowd).sphere(ball(1e6, 1e6, 1e6));
+    run(2_001, 0.02, scene);
+}
+
+#[test]
+fn a_giant_in_dust() {
+    let dust = Spheres::random(5_000).radius(0.05).mass(1e-3).temperature(1e-3);
+    let scene = scene::<f64>()
+        .surroundings(Cuboid::container([0.0; 3], [40.0; 3]))
+        .sphere(Sphere::new([20.0; 3]).radius(15.0).mass(1e3))
+        .spheres(dust);
+    run(5_001, 1e-3, scene);
+}
+
+#[test]
+fn many_fixed_parts_and_few_balls() {
+    // A lattice of posts, and walls that all cross each other.
+    let mut posts = scene::<f64>();
+    let mut walls = scene::<f64>();
+    for k in 0..20_000 {
+        let at = [k / 625, k / 25 % 25, k % 25].map(f64::from);
+        posts = posts.surroundings(FixedSphere::solid(at, 0.4));
+    }
+    for k in 0..1_000 {
+        let x = f64::from(k);
+        let mut corners = [[-1.0; 3], [1_000.0; 3]];
+        let axis = (k % 3) as usize;
+        (corners[0][axis], corners[1][axis]) = (x, x + 0.5);
+        walls = walls.surroundings(Cuboid::solid(corners[0], corners[1]));
+    }
+    let ball = |x| Sphere::new([x; 3]).radius(1e-3).velocity([1.0, 0.5, 0.25]);
+    run(20_001, 10.0, posts.sphere(ball(0.45)));
+    run(1_001, 10.0, walls.sphere(ball(-2.0)));
+}
