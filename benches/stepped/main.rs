@@ -16,7 +16,7 @@ mod gas;
 mod skips;
 mod small;
 
-use carom::engine::{Compiled, EngineError, Execution, Lanes, Stepped};
+use carom::engine::{Compiled, EngineError, Execution, Stepped};
 use carom::scene::{Scene, SceneError};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Throughput};
@@ -43,7 +43,7 @@ fn measure<T: Compiled>(
 ) -> Result<(), SetupError> {
     let bodies = scene.bodies.len() as u64;
     let steps = (1_000_000 / bodies).max(10);
-    let mut world = Stepped::with_execution(scene, Execution { lanes: Lanes::Auto, threads })?;
+    let mut world = Stepped::with_execution(scene, Execution::new().threads(threads))?;
     world.advance_steps(WARM_UP_STEPS);
     group.throughput(Throughput::Elements(bodies * steps));
     group.bench_function(id, |bencher| bencher.iter(|| world.advance_steps(steps)));

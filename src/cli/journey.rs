@@ -115,7 +115,7 @@ impl Samples {
         // run do not tell what was in between.
         let spans = match surface {
             Surface::Smooth => 1,
-            Surface::Rough => 32,
+            _ => 32,
         };
         Self { spans, passed: 0, last_place: 0.0, last: first.translational, integral: 0.0 }
     }

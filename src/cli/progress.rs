@@ -37,7 +37,7 @@ impl Progress {
         let count = world.collisions().total();
         let (done, unit) = match world.plan().engine {
             EngineKind::Stepped => (world.steps(), "steps"),
-            EngineKind::EventDriven => (count, "collisions"),
+            _ => (count, "collisions"),
         };
         let rate = done as f64 / busy.as_secs_f64().max(1e-9);
         let time = world.time();

@@ -14,6 +14,7 @@ use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene};
 
 /// What becomes of the orientations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Turning {
     /// No body spins and no contact can make it.
     Never,
@@ -25,8 +26,20 @@ pub enum Turning {
     EachStep,
 }
 
-/// What a scene needs of an engine.
-#[derive(Clone, Debug)]
+/// What a scene needs of an engine. It prints as `carom explain` prints it.
+///
+/// ```
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5);
+/// let scene = Scene::<f64>::builder().gravity([0.0, 0.0, -10.0]).sphere(ball).build()?;
+/// let world = EventDriven::new(scene)?;
+/// assert!(world.plan().has_field && !world.plan().has_pairs);
+/// println!("{}", world.plan());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Plan {
     /// The engine that it is made for.
     pub engine: EngineKind,

@@ -10,6 +10,7 @@ use crate::real::Real;
 /// In which numbers a scene is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Precision {
     /// Single precision, 24 binary digits.
     F32,
@@ -47,6 +48,7 @@ impl fmt::Display for Precision {
 /// How an engine goes through time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum EngineKind {
     /// Steps of fixed length.
     #[default]
@@ -58,6 +60,7 @@ pub enum EngineKind {
 /// What spheres can meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Encounters {
     /// Spheres meet each other and the surroundings.
     #[default]
@@ -84,6 +87,7 @@ pub struct SteppedSettings {
 /// Where inside a step of the stepped engine a contact takes effect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Impact {
     /// At the end of the step, where the bodies are found to overlap.
     #[default]
@@ -96,6 +100,7 @@ pub enum Impact {
 /// When orientations are brought up to date.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum OrientationUpdate {
     /// As a closed form of the last change of spin, when it is asked for.
     #[default]

@@ -11,7 +11,7 @@ use carom::vec3::Vec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::reference::Reference;
+use crate::reference::{Collision, Reference};
 use crate::{builder, t3};
 
 /// Where balls are put, and among what.
@@ -199,8 +199,10 @@ fn agree<T: Compiled>(kind: Kind, seed: u64, most: u64) -> usize {
 /// Runs both for a number of events, and compares them.
 fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let lanes = LANES[seed as usize % LANES.len()];
-    let world =
-        || EventDriven::with_execution(scene.clone(), Execution { lanes, threads: 1 }).unwrap();
+    let world = || {
+        EventDriven::with_execution(scene.clone(), Execution::new().lanes(lanes).threads(1))
+            .unwrap()
+    };
     let mut first = world();
     first.advance_until(most, 50.0).unwrap();
     // Between two events: which of two roundings an end has is no matter.
@@ -217,7 +219,13 @@ fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let mut reference = Reference::new(scene);
     for (k, event) in found.iter().enumerate() {
         let expected = reference.next_event(end);
-        assert_eq!(Some(*event), expected, "{} {} event {k} of {lanes:?}", scene.name, T::NAME);
+        assert_eq!(
+            Some(Collision::from(*event)),
+            expected,
+            "{} {} event {k} of {lanes:?}",
+            scene.name,
+            T::NAME
+        );
     }
     if found.len() < cap {
         assert_eq!(reference.next_event(end), None, "{} {}: missed", scene.name, T::NAME);

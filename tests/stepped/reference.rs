@@ -44,7 +44,7 @@ impl<T: Compiled> Reference<T> {
         flight::<T, SemiImplicitEuler, S>([x, y, z], [u, v, w], scene.gravity, dt, space);
         let collide = |offset, a: &mut Party<T>, b: &mut Party<T>| match scene.surface {
             Surface::Smooth => collide(Smooth, offset, a, b),
-            Surface::Rough => collide(Rough, offset, a, b),
+            _ => collide(Rough, offset, a, b),
         };
         for a in 0..self.bodies.len() {
             let center = self.bodies.position_of(a);
