@@ -37,6 +37,7 @@ mod file;
 mod filling;
 mod generate;
 mod neighbours;
+mod obstacles;
 mod origin;
 mod random;
 mod raw;

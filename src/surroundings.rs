@@ -10,6 +10,7 @@
 mod cuboid;
 mod fixed_sphere;
 mod free_flight;
+mod parts;
 mod plane;
 
 pub use cuboid::Cuboid;

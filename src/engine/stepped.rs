@@ -141,6 +141,7 @@ impl<T: Real> Stepped<T> {
         let has_contacts = plan.has_pairs || plan.features > 0;
         let places = if has_contacts { len } else { 0 };
         let is_within = plan.impact == Impact::SubStep;
+        let broadphase = BroadPhase::new(&state.radius, len, features.as_slice());
         Ok(Self {
             dt,
             exact_dt,
@@ -156,7 +157,7 @@ impl<T: Real> Stepped<T> {
             steps: 0,
             collisions: Collisions::default(),
             tallies: Tallies::default(),
-            broadphase: BroadPhase::new(&state.radius, len),
+            broadphase,
             candidates: Candidates::default(),
             skin: T::ZERO,
             travelled: T::ZERO,
@@ -378,14 +379,15 @@ impl<T: Real> Stepped<T> {
         };
         // Without pairs a candidate is a body near a fixed feature: there are few,
         // and a search is worth many steps.
-        let alone = if self.plan.has_pairs { T::ZERO } else { travel * T::whole(64) };
+        let is_alone = !self.plan.has_pairs && !self.broadphase.has_many_parts();
+        let alone = if is_alone { travel * T::whole(64) } else { T::ZERO };
         self.skin = self.broadphase.skin(travel, self.skin).greater(swept).greater(alone);
         let (periodic, pairs) = (self.periodic, self.plan.has_pairs);
         let surveyed = self.state.surveyed(periodic, &self.features, pairs);
         let order = self.broadphase.sort(&surveyed, self.skin, workers);
         self.state.reorder(order, workers);
         let surveyed = self.state.surveyed(periodic, &self.features, pairs);
-        self.broadphase.search::<L>(&surveyed, self.skin, &mut self.candidates, workers);
+        self.broadphase.search::<L, _>(&surveyed, self.skin, &mut self.candidates, workers);
         // Within the step just taken bodies were further apart or nearer by as much.
         self.travelled = match self.plan.impact {
             Impact::EndOfStep => T::ZERO,

@@ -7,6 +7,7 @@ use super::Encounters;
 use super::builder::SceneBuilder;
 use super::error::{Problem, SceneError};
 use super::neighbours::{Neighbours, largest, tolerance};
+use super::obstacles::{Misplaced, Obstacles};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
@@ -40,13 +41,19 @@ pub(super) fn bodies<T: Real>(
         wrap(space, &mut bodies).map_err(of_entry)?;
     }
     if builder.encounters != Encounters::None {
-        for (index, given) in builder.surroundings.iter().enumerate() {
-            if let Some(space) = &periodic {
-                within(&given.rounded, space, &bodies).map_err(|problem| {
+        let shapes: Vec<_> = builder.surroundings.iter().map(|given| given.rounded).collect();
+        let misplaced = surroundings(&shapes, &bodies);
+        let first = misplaced.as_ref().map_or(shapes.len(), |misplaced| misplaced.0 + 1);
+        if let Some(space) = &periodic {
+            let radius = bodies.radius.greatest();
+            for (index, shape) in shapes[..first].iter().enumerate() {
+                within(shape, space, radius).map_err(|problem| {
                     builder.origin.error(format!("surroundings[{index}]"), problem)
                 })?;
             }
-            surroundings(index, &given.rounded, &bodies).map_err(of_entry)?;
+        }
+        if let Some((_, found)) = misplaced {
+            return Err(of_entry(found));
         }
     }
     if builder.encounters == Encounters::All {
@@ -159,11 +166,7 @@ fn wrap<T: Real>(space: &PeriodicBox<T>, bodies: &mut Bodies<T>) -> Result<(), F
 
 /// What is solid in a periodic box must be met from one side of it only: the
 /// images of what is fixed are not looked for.
-fn within<T: Real>(
-    shape: &Shape<T>,
-    space: &PeriodicBox<T>,
-    bodies: &Bodies<T>,
-) -> Result<(), Problem> {
+fn within<T: Real>(shape: &Shape<T>, space: &PeriodicBox<T>, radius: T) -> Result<(), Problem> {
     let [lower, upper] = match shape {
         Shape::Cuboid(cuboid) => [cuboid.lower, cuboid.upper],
         Shape::FixedSphere(sphere) => {
@@ -172,7 +175,6 @@ fn within<T: Real>(
         }
         Shape::Plane(_) => return Ok(()),
     };
-    let radius = bodies.radius.greatest();
     let [low, high] = [(lower - space.lower).to_array(), (space.upper - upper).to_array()];
     if low.iter().chain(&high).all(|margin| *margin >= radius) {
         return Ok(());
@@ -186,34 +188,28 @@ fn within<T: Real>(
     })
 }
 
-/// No body is inside of something solid, or outside of its container.
-fn surroundings<T: Real>(index: usize, shape: &Shape<T>, bodies: &Bodies<T>) -> Result<(), Found> {
+/// The first body that is inside of something solid or outside of its container,
+/// at the first such shape.
+fn surroundings<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Option<(usize, Found)> {
     let epsilon = T::EPSILON.to_f64();
-    for feature in shape.features() {
-        let far = farthest(&feature);
-        for body in 0..bodies.len() {
-            let center = bodies.position_of(body);
-            let radius = bodies.radius.of(body);
-            let gap = feature.clearance(center, radius).gap.to_f64();
-            let coordinate = largest(center.to_array().map(T::to_f64)) + far;
-            if gap >= -tolerance(epsilon, coordinate, radius.to_f64()) {
-                continue;
-            }
-            let (beyond, wanted) = match shape.interior() {
-                Some(_) => (
-                    format!("outside of its container, surroundings[{index}]"),
-                    "every sphere must be wholly inside of it",
-                ),
-                None => (
-                    format!("inside of surroundings[{index}], which is solid"),
-                    "a sphere may touch it from outside",
-                ),
-            };
-            let problem = Problem::Misplaced { body, beyond, depth: -gap, wanted };
-            return Err((body, "", problem));
-        }
-    }
-    Ok(())
+    let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
+    let tolerated = |feature: &Feature<T>, center: Vec3<T>, radius: T| {
+        let coordinate = largest(center.to_array().map(T::to_f64)) + farthest(feature);
+        tolerance(epsilon, coordinate, radius.to_f64())
+    };
+    let Misplaced { shape, body, depth } =
+        Obstacles::new(shapes).first_overlap(bodies.len(), sphere, tolerated)?;
+    let (beyond, wanted) = match shapes[shape].interior() {
+        Some(_) => (
+            format!("outside of its container, surroundings[{shape}]"),
+            "every sphere must be wholly inside of it",
+        ),
+        None => (
+            format!("inside of surroundings[{shape}], which is solid"),
+            "a sphere may touch it from outside",
+        ),
+    };
+    Some((shape, (body, "", Problem::Misplaced { body, beyond, depth, wanted })))
 }
 
 /// The largest coordinate that a feature's clearance is made of.

@@ -12,7 +12,7 @@ use crate::lane::Lane;
 use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::scene::Impact;
-use crate::space::broadphase::{Candidates, Chunk, Pair};
+use crate::space::broadphase::{Candidates, Chunk};
 use crate::space::{OpenSpace, Space};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
@@ -84,8 +84,8 @@ impl<T: Real> Stepped<T> {
                 }
             }
         }
-        for (number, (feature, near)) in self.features.iter().zip(&chunk.at_feature).enumerate() {
-            let feature = (number as u32, feature);
+        for (number, near) in chunk.at_parts() {
+            let feature = (number, &self.features[number as usize]);
             touching_surroundings::<L, _, _, _>(state, detection, radius, feature, near, found);
         }
     }
@@ -300,15 +300,7 @@ impl<T: Real> Stepped<T> {
         let within = WithinStep { path: self.path, sweep: self.travelled + self.travelled };
         let mut found = Vec::new();
         for chunk in &self.candidates.chunks {
-            let mut near = Chunk::default();
-            for (near, pairs) in near.pairs.iter_mut().zip(&chunk.pairs) {
-                let is_struck = |&&[a, b]: &&Pair| rounds.is_struck(a) || rounds.is_struck(b);
-                near.extend(pairs.iter().filter(is_struck));
-            }
-            near.at_feature.resize_with(self.features.len(), Vec::new);
-            for (near, bodies) in near.at_feature.iter_mut().zip(&chunk.at_feature) {
-                near.extend(bodies.iter().filter(|&&body| rounds.is_struck(body)));
-            }
+            let near = chunk.of(|body| rounds.is_struck(body));
             self.search_chunk::<T>(within, &near, &mut found);
         }
         waiting.extend(found.into_iter().filter_map(|contact| self.on_new_path(contact)));
