@@ -36,7 +36,6 @@ mod figures;
 mod file;
 mod filling;
 mod generate;
-mod neighbours;
 mod obstacles;
 mod origin;
 mod random;

@@ -1,6 +1,9 @@
 //! Space: open or periodic, and who is near what in it.
 
 pub(crate) mod broadphase;
+pub(crate) mod neighbours;
+#[cfg(test)]
+mod noise;
 mod parts;
 mod periodic;
 mod tree;

@@ -3,10 +3,10 @@
 use core::f64::consts::PI;
 
 use super::error::Problem;
-use super::neighbours::Neighbours;
 use super::obstacles::Obstacles;
 use super::random::Random;
 use super::spheres::{Arrangement, Spread};
+use crate::space::neighbours::Neighbours;
 
 /// The packing fraction where random sequential insertion of equal spheres
 /// ends: 0.3841 (Zhang and Torquato, Physical Review E 88, 053312, 2013).

@@ -6,12 +6,12 @@ use core::ops::Range;
 use super::Encounters;
 use super::builder::SceneBuilder;
 use super::error::{Problem, SceneError};
-use super::neighbours::{Neighbours, largest, tolerance};
 use super::obstacles::{Misplaced, Obstacles};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::space::PeriodicBox;
+use crate::space::neighbours::{Neighbours, largest, tolerance};
 use crate::surroundings::{Feature, Shape};
 use crate::vec3::Vec3;
 

@@ -7,7 +7,6 @@ use super::builder::{Entry, GivenBox, Periodicity, SceneBuilder, rounded_box};
 use super::error::{Problem, SceneError};
 use super::figures::Figures;
 use super::filling::Filling;
-use super::neighbours::Neighbours;
 use super::obstacles::Obstacles;
 use super::random::{Purpose, Seed};
 use super::spheres::{Arrangement, Spheres, Spread};
@@ -15,6 +14,7 @@ use super::{Encounters, check};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::space::PeriodicBox;
+use crate::space::neighbours::Neighbours;
 use crate::surroundings::Shape;
 
 /// The periodic box, as given or sized by a number density.

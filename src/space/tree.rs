@@ -225,16 +225,8 @@ fn widest<T: Real>(boxes: &[(Bounds<T>, u32)]) -> usize {
 mod tests {
     use super::{Bounds, Tree};
     use crate::real::Real;
+    use crate::space::noise::noise;
     use crate::vec3::Vec3;
-
-    /// A row of numbers between 0 and 1 without a pattern.
-    fn noise() -> impl FnMut() -> f64 {
-        let mut state = 1_u64;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        }
-    }
 
     fn cube<T: Real>(center: [f64; 3], half: f64) -> Bounds<T> {
         let corner = |sign: f64| Vec3::from(center.map(|c| T::from_f64(c + sign * half)));
