@@ -26,7 +26,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Instant;
 
 use carom::contact::Surface;
-use carom::engine::{EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, EventDriven, Execution, Lanes};
 use carom::real::Real;
 use carom::scene::{Scene, SceneError, Spheres};
 use carom::space::PeriodicBox;
@@ -193,7 +193,7 @@ impl Row {
 /// Sets a row up, says so, and then lets as many collisions happen as each line
 /// of the input asks for. Every answer is the time of a collision in seconds,
 /// the engine's memory and that of the process, bytes a body.
-fn serve<T: Real>(row: &Row, melting: u64) -> Result<(), Box<dyn Error>> {
+fn serve<T: Compiled>(row: &Row, melting: u64) -> Result<(), Box<dyn Error>> {
     let execution = Execution { lanes: row.lanes, threads: 1 };
     let mut world = EventDriven::with_execution(row.scene::<T>()?, execution)?;
     world.advance_until(melting * row.bodies / 2, 1e9)?;

@@ -5,7 +5,7 @@
 //! cargo run --release --example own_arrays
 //! ```
 
-use carom::contact::{Party, collide};
+use carom::contact::{Party, Rough, Smooth, collide};
 use carom::motion::flight::flight;
 use carom::motion::integrator::VelocityVerlet;
 use carom::space::OpenSpace;
@@ -41,10 +41,8 @@ fn main() {
     for surface in [Surface::Smooth, Surface::Rough] {
         let (mut ball, mut floor) = (falling, Party::immovable());
         let impulse = match surface {
-            Surface::Smooth => {
-                collide::<f64x4, false>(from_contact_to_center, &mut ball, &mut floor)
-            }
-            Surface::Rough => collide::<f64x4, true>(from_contact_to_center, &mut ball, &mut floor),
+            Surface::Smooth => collide(Smooth, from_contact_to_center, &mut ball, &mut floor),
+            Surface::Rough => collide(Rough, from_contact_to_center, &mut ball, &mut floor),
         };
         println!("{surface:?}:");
         println!("  spins before     {:.3?}", falling.spin.y.to_array());

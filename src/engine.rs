@@ -1,18 +1,22 @@
 //! Engines: what moves a scene through time.
 
+mod account;
+mod compiled;
 mod event;
 mod event_driven;
+mod interface;
 mod plan;
 mod stepped;
-mod tallies;
 mod world;
 
 use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
+pub use account::Effort;
+pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
-pub use event_driven::{Effort, EventDriven};
+pub use event_driven::EventDriven;
 pub use plan::{Plan, Turning};
 pub use stepped::Stepped;
 pub use world::World;

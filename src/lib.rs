@@ -52,7 +52,7 @@
 //! [`motion::flight`](mod@motion::flight), [`motion::turning`] and [`contact::collide`].
 //!
 //! ```
-//! use carom::contact::{Party, collide};
+//! use carom::contact::{Party, Rough, collide};
 //! use carom::Vec3;
 //!
 //! // A solid ball of mass 1 and radius ½ comes down on a rough floor.
@@ -64,7 +64,7 @@
 //!     share: 1.0,
 //! };
 //! let from_contact_to_center = Vec3::new(0.0, 0.0, 0.5);
-//! collide::<f64, true>(from_contact_to_center, &mut ball, &mut Party::immovable());
+//! collide(Rough, from_contact_to_center, &mut ball, &mut Party::immovable());
 //! assert_eq!(ball.velocity.z, 1.0);
 //! assert!((ball.velocity.x - 3.0 / 7.0).abs() < 1e-15);
 //! ```

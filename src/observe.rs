@@ -41,7 +41,6 @@ pub use totals::Totals;
 use crate::bodies::{Bodies, PerBody};
 use crate::compensated::CompensatedSum;
 use crate::real::Real;
-use crate::vec3::Vec3;
 
 /// The mass of all bodies together.
 #[must_use]
@@ -52,9 +51,4 @@ pub fn total_mass<T: Real>(bodies: &Bodies<T>) -> f64 {
             masses.iter().map(|mass| mass.to_f64()).collect::<CompensatedSum>().value()
         }
     }
-}
-
-/// A vector in `f64`.
-pub(crate) fn wide<T: Real>(vector: Vec3<T>) -> Vec3<f64> {
-    Vec3::new(vector.x.to_f64(), vector.y.to_f64(), vector.z.to_f64())
 }

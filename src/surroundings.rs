@@ -4,26 +4,52 @@
 //! [`Feature`]s, each of which a sphere can touch in one point at a time: a
 //! container into its six faces, every other shape into itself. A feature knows
 //! two things: its [`Clearance`] from a sphere, in one function over lanes, and
-//! the time at which a sphere in free flight comes to it. A new shape is a new
-//! file with these two functions.
+//! the time at which a sphere in free flight comes to it.
+//!
+//! A shape is one file, which implements the two traits of `solid.rs`, and one
+//! entry of the list below. The scene file, the checks, the placement of spheres
+//! and both engines know shapes through these traits only.
 
 mod cuboid;
+mod entry;
 mod fixed_sphere;
 mod free_flight;
+mod mistake;
 mod parts;
 mod plane;
+mod solid;
 
-pub use cuboid::Cuboid;
-pub use fixed_sphere::FixedSphere;
-pub use plane::Plane;
+pub(crate) use entry::{Key, Meaning, NO_VECTOR, ShapeEntry, Value};
+pub(crate) use mistake::{Mistake, corners, finite, is_positive, positive};
+pub(crate) use solid::ShapeKind;
 
 use free_flight::FreeFlight;
+use solid::{Obstacle, Solid, solids};
 
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
+solids! {
+    /// A half space, or a face of a container.
+    plane::Plane,
+    /// A box, solid or hollow.
+    cuboid::Cuboid,
+    /// A sphere, solid or hollow.
+    fixed_sphere::FixedSphere,
+}
+
 /// Where a sphere stands to a fixed feature.
+///
+/// ```
+/// use carom::surroundings::{Feature, Plane};
+/// use carom::vec3::Vec3;
+///
+/// let floor = Feature::from(Plane::new([0.0; 3], [0.0, 0.0, 1.0]));
+/// let clearance = floor.clearance(Vec3::new(7.0, 0.0, 3.0), 1.0);
+/// assert_eq!(clearance.gap, 2.0);
+/// assert_eq!(clearance.arm.to_array(), [0.0, 0.0, 1.0]);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Clearance<L> {
     /// Distance between the two surfaces, length; negative where they overlap.
@@ -33,108 +59,54 @@ pub struct Clearance<L> {
     pub arm: Vec3<L>,
 }
 
-/// A fixed solid, as a scene names it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape<T> {
-    /// A half space.
-    Plane(Plane<T>),
-    /// A box, solid or hollow.
-    Cuboid(Cuboid<T>),
-    /// A sphere, solid or hollow.
-    FixedSphere(FixedSphere<T>),
-}
-
-impl<T> From<Plane<T>> for Shape<T> {
-    fn from(plane: Plane<T>) -> Self {
-        Self::Plane(plane)
-    }
-}
-
-impl<T> From<Cuboid<T>> for Shape<T> {
-    fn from(cuboid: Cuboid<T>) -> Self {
-        Self::Cuboid(cuboid)
-    }
-}
-
-impl<T> From<FixedSphere<T>> for Shape<T> {
-    fn from(sphere: FixedSphere<T>) -> Self {
-        Self::FixedSphere(sphere)
-    }
-}
-
 impl<T: Real> Shape<T> {
-    /// The features that a sphere can touch.
-    #[must_use]
-    pub fn features(&self) -> Vec<Feature<T>> {
-        match self {
-            Self::Plane(plane) => vec![Feature::Plane(*plane)],
-            Self::Cuboid(cuboid) if cuboid.inside => {
-                cuboid.faces().into_iter().map(Feature::Plane).collect()
-            }
-            Self::Cuboid(cuboid) => vec![Feature::Cuboid(*cuboid)],
-            Self::FixedSphere(sphere) => vec![Feature::FixedSphere(*sphere)],
-        }
+    /// The corners of the box around the solid; `None` for one without end.
+    pub(crate) fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        let bounds = self.features().into_iter().map(|feature| feature.bounds());
+        let bounds: Option<Vec<_>> = bounds.collect();
+        bounds?.into_iter().reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)])
     }
-
-    /// The region that the shape encloses as a container, `lower` and `upper`
-    /// corner; `None` for a shape that spheres stay outside of.
-    #[must_use]
-    pub fn interior(&self) -> Option<[Vec3<T>; 2]> {
-        match self {
-            Self::Cuboid(cuboid) if cuboid.inside => Some([cuboid.lower, cuboid.upper]),
-            Self::FixedSphere(sphere) if sphere.inside => {
-                let reach = Vec3::new(sphere.radius, sphere.radius, sphere.radius);
-                Some([sphere.center - reach, sphere.center + reach])
-            }
-            _ => None,
-        }
-    }
-}
-
-/// The features of all shapes, and for each of them which shape it is of.
-pub(crate) fn features_of<T: Real>(shapes: &[Shape<T>]) -> (Vec<Feature<T>>, Vec<u32>) {
-    let (mut features, mut parts) = (Vec::new(), Vec::new());
-    for (part, shape) in shapes.iter().enumerate() {
-        features.extend(shape.features());
-        parts.resize(features.len(), part as u32);
-    }
-    (features, parts)
-}
-
-/// What a sphere can touch in one point at a time.
-#[derive(Clone, Copy, Debug)]
-pub enum Feature<T> {
-    /// A half space, or a face of a container.
-    Plane(Plane<T>),
-    /// The outside of a box.
-    Cuboid(Cuboid<T>),
-    /// A sphere, solid or hollow.
-    FixedSphere(FixedSphere<T>),
 }
 
 impl<T: Real> Feature<T> {
-    /// The corners of the box that the solid fills; `None` for one without end.
+    /// The corners of the box that the solid fills, length; `None` for one
+    /// without end.
+    ///
+    /// ```
+    /// use carom::surroundings::{Feature, FixedSphere, Plane};
+    ///
+    /// let ball = Feature::from(FixedSphere::solid([1.0, 0.0, 0.0], 2.0));
+    /// let corners = ball.bounds().map(|corners| corners.map(|c| c.to_array()));
+    /// assert_eq!(corners, Some([[-1.0, -2.0, -2.0], [3.0, 2.0, 2.0]]));
+    /// assert!(Feature::from(Plane::new([0.0; 3], [0.0, 0.0, 1.0])).bounds().is_none());
+    /// ```
     #[must_use]
     pub fn bounds(&self) -> Option<[Vec3<T>; 2]> {
-        match self {
-            Self::Cuboid(cuboid) if !cuboid.inside => Some([cuboid.lower, cuboid.upper]),
-            Self::FixedSphere(sphere) if !sphere.inside => {
-                let reach = Vec3::new(sphere.radius, sphere.radius, sphere.radius);
-                Some([sphere.center - reach, sphere.center + reach])
-            }
-            _ => None,
-        }
+        Obstacle::bounds(self)
     }
 
-    /// Where spheres with these centres and radii stand to the feature.
+    /// Where spheres with these centres and radii, length, stand to the feature.
+    ///
+    /// A lane is one sphere or a pack of them:
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// use carom::surroundings::{Cuboid, Feature};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let cube = Feature::from(Cuboid::solid([0.0; 3], [1.0; 3]));
+    /// assert_eq!(cube.clearance(Vec3::new(0.5, 0.5, 4.0), 1.0).gap, 2.0);
+    ///
+    /// let heights = wide::f64x4::from([4.0, 3.0, 2.0, 1.5]);
+    /// let [half, one] = [0.5, 1.0].map(wide::f64x4::splat);
+    /// let gaps = cube.clearance(Vec3::new(half, half, heights), one).gap;
+    /// assert_eq!(gaps.to_array(), [2.0, 1.0, 0.0, -0.5]);
+    /// ```
     #[inline(always)]
     pub fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
-        match self {
-            Self::Plane(plane) => plane.clearance(center, radius),
-            Self::Cuboid(cuboid) => cuboid.clearance(center, radius),
-            Self::FixedSphere(sphere) => sphere.clearance(center, radius),
-        }
+        Obstacle::clearance(self, center, radius)
     }
+
     /// Time from now until a sphere in free flight collides with the feature,
     /// not negative; None if it never does.
     ///
@@ -177,10 +149,21 @@ impl<T: Real> Feature<T> {
         is_leaving: bool,
     ) -> Option<T> {
         let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
-        match self {
-            Self::Plane(plane) => plane.contact_time(&flight),
-            Self::Cuboid(cuboid) => cuboid.contact_time(&flight),
-            Self::FixedSphere(sphere) => sphere.contact_time(&flight),
-        }
+        Obstacle::contact_time(self, &flight)
     }
+
+    /// The largest coordinate that the clearance is made of, length.
+    pub(crate) fn farthest(&self) -> f64 {
+        Obstacle::farthest(self)
+    }
+}
+
+/// The features of all shapes, and for each of them which shape it is of.
+pub(crate) fn features_of<T: Real>(shapes: &[Shape<T>]) -> (Vec<Feature<T>>, Vec<u32>) {
+    let (mut features, mut parts) = (Vec::new(), Vec::new());
+    for (part, shape) in shapes.iter().enumerate() {
+        features.extend(shape.features());
+        parts.resize(features.len(), part as u32);
+    }
+    (features, parts)
 }

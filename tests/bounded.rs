@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use approx::assert_abs_diff_eq;
 use cap::Cap;
 use carom::bodies::Bodies;
-use carom::engine::EventDriven;
+use carom::engine::{Compiled, EventDriven};
 use carom::real::Real;
 use carom::scene::{EngineKind, Scene, SceneBuilder, Sphere, Spheres};
 use carom::space::PeriodicBox;
@@ -22,7 +22,7 @@ const EACH: usize = 2 << 10;
 
 /// Builds a scene of so many bodies and fixed parts and runs it event by event,
 /// within the bound of memory.
-fn run<T: Real>(count: usize, duration: f64, scene: SceneBuilder<T>) -> Bodies<T> {
+fn run<T: Compiled>(count: usize, duration: f64, scene: SceneBuilder<T>) -> Bodies<T> {
     // The limit is one for all tests.
     static ALONE: Mutex<()> = Mutex::new(());
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,7 +1,7 @@
 //! The elastic maps: exact cases, invariants over millions of random
 //! collisions, special cases of the formula, and the bias of the energy.
 
-use carom::contact::{Impulse, Party, collide};
+use carom::contact::{Impulse, Party, Rough, Smooth, collide};
 use carom::lane::{Lane, Mask, Twin, Widened};
 use carom::real::Real;
 use carom::vec3::Vec3;
@@ -30,9 +30,9 @@ fn run<L: Lane>(
     (offset, mut a, mut b): Meeting<L>,
 ) -> (Impulse<L>, Party<L>, Party<L>) {
     let impulse = if rough {
-        collide::<L, true>(offset, &mut a, &mut b)
+        collide(Rough, offset, &mut a, &mut b)
     } else {
-        collide::<L, false>(offset, &mut a, &mut b)
+        collide(Smooth, offset, &mut a, &mut b)
     };
     (impulse, a, b)
 }

@@ -14,8 +14,8 @@
 
 mod common;
 
-use carom::contact::{Party, collide, contact_time};
-use carom::engine::{EventDriven, Stepped};
+use carom::contact::{Law, Party, Rough, Smooth, collide, contact_time};
+use carom::engine::{Compiled, EventDriven, Stepped};
 use carom::motion::Integrator;
 use carom::motion::rotation::reference_rotation;
 use carom::motion::turning::turn;
@@ -43,10 +43,10 @@ const GOLDEN: &[Entry] = &[
     ("turning f64", turning::<f64>, 0xd79d_ad72_405d_f75a),
     ("flight f32", flights::<f32>, 0x58b9_50ff_4b45_5fcb),
     ("flight f64", flights::<f64>, 0xefa4_71d9_b3c9_6153),
-    ("smooth impulse f32", impulses::<f32, false>, 0x96b6_c183_0274_a53e),
-    ("smooth impulse f64", impulses::<f64, false>, 0x2890_999d_1a32_8784),
-    ("rough impulse f32", impulses::<f32, true>, 0x661a_40cf_da21_d0dd),
-    ("rough impulse f64", impulses::<f64, true>, 0x2bed_9b8d_179f_2d94),
+    ("smooth impulse f32", || impulses::<f32, _>(Smooth), 0x96b6_c183_0274_a53e),
+    ("smooth impulse f64", || impulses::<f64, _>(Smooth), 0x2890_999d_1a32_8784),
+    ("rough impulse f32", || impulses::<f32, _>(Rough), 0x661a_40cf_da21_d0dd),
+    ("rough impulse f64", || impulses::<f64, _>(Rough), 0x2bed_9b8d_179f_2d94),
     ("contact times f32", contact_times::<f32>, 0xfa09_3755_e12f_64b6),
     ("contact times f64", contact_times::<f64>, 0xceb3_c73c_afeb_412b),
     (
@@ -188,7 +188,7 @@ fn flights<T: Real>() -> u64 {
 }
 
 /// Impulses between random bodies.
-fn impulses<T: Real, const ROUGH: bool>() -> u64 {
+fn impulses<T: Real, W: Law<T>>(law: W) -> u64 {
     let mut random = Random(7);
     let mut results = Vec::new();
     for _ in 0..COUNT {
@@ -201,7 +201,7 @@ fn impulses<T: Real, const ROUGH: bool>() -> u64 {
             share: T::ratio(1, 3),
         };
         let (mut a, mut b) = (party(), party());
-        collide::<T, ROUGH>(offset, &mut a, &mut b);
+        collide(law, offset, &mut a, &mut b);
         for v in [a.velocity, a.spin, b.velocity, b.spin] {
             results.extend(v.to_array());
         }
@@ -210,7 +210,7 @@ fn impulses<T: Real, const ROUGH: bool>() -> u64 {
 }
 
 /// The state of a built-in scene after some steps of the stepped engine.
-fn engine<T: Real>(name: &str, impact: Impact) -> u64 {
+fn engine<T: Compiled>(name: &str, impact: Impact) -> u64 {
     let mut scene = SceneFile::builtin(name).unwrap().build::<T>().unwrap();
     scene.stepped.impact = impact;
     let mut world = Stepped::new(scene).unwrap();
@@ -220,7 +220,7 @@ fn engine<T: Real>(name: &str, impact: Impact) -> u64 {
 
 /// The state of a built-in scene after some collisions of the event-driven
 /// engine.
-fn events<T: Real>(name: &str) -> u64 {
+fn events<T: Compiled>(name: &str) -> u64 {
     let scene = SceneFile::builtin(name).unwrap().build::<T>().unwrap();
     let mut world = EventDriven::new(scene).unwrap();
     world.advance_until(20_000, 1e3).unwrap();

@@ -80,3 +80,44 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
         }
     }
 }
+
+/// The files of `scene/`, each of which imports only those before it.
+const SCENE: [&str; 19] = [
+    "settings",
+    "spheres",
+    "random",
+    "error",
+    "origin",
+    "description",
+    "check",
+    "figures",
+    "filling",
+    "obstacles",
+    "arrangement",
+    "generate",
+    "check_bodies",
+    "checked",
+    "builder",
+    "builtin",
+    "raw",
+    "file",
+    "dilated",
+];
+
+#[test]
+fn a_scene_is_made_in_one_direction() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene");
+    let order = |name: &str| SCENE.iter().position(|file| *file == name);
+    let mut checked = 0;
+    for (own, file) in SCENE.iter().enumerate() {
+        let text = fs::read_to_string(folder.join(format!("{file}.rs"))).unwrap();
+        for line in text.lines().filter(|line| line.starts_with("use super::")) {
+            let names = line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+            for imported in names.skip(2).filter_map(order) {
+                checked += 1;
+                assert!(imported < own, "scene/{file}.rs imports what comes after it: {line}");
+            }
+        }
+    }
+    assert!(checked > 30, "only {checked} imports were found");
+}

@@ -1,6 +1,6 @@
 //! Contacts of two bodies, on contiguous pairs: the impulse, and the time.
 
-use carom::contact::{Party, collide, past_contact};
+use carom::contact::{self, Party, collide, past_contact};
 use carom::lane::Lane;
 use carom::real::Real;
 use carom::vec3::Vec3;
@@ -40,7 +40,7 @@ impl<T: Real> Formula<T, 9, 6> for Smooth {
     fn of<L: Lane<Scalar = T>>(&self, [x, y, z, ux, uy, uz, vx, vy, vz]: [L; 9]) -> [L; 6] {
         let mut a = equal([ux, uy, uz], [L::ZERO; 3]);
         let mut b = equal([vx, vy, vz], [L::ZERO; 3]);
-        collide::<L, false>(Vec3::new(x, y, z), &mut a, &mut b);
+        collide(contact::Smooth, Vec3::new(x, y, z), &mut a, &mut b);
         joined([a.velocity, b.velocity])
     }
 }
@@ -53,7 +53,7 @@ impl<T: Real> Formula<T, 15, 12> for Rough {
         let [x, y, z, ux, uy, uz, vx, vy, vz, px, py, pz, qx, qy, qz] = inputs;
         let mut a = equal([ux, uy, uz], [px, py, pz]);
         let mut b = equal([vx, vy, vz], [qx, qy, qz]);
-        collide::<L, true>(Vec3::new(x, y, z), &mut a, &mut b);
+        collide(contact::Rough, Vec3::new(x, y, z), &mut a, &mut b);
         joined([a.velocity, b.velocity, a.spin, b.spin])
     }
 }

@@ -1,13 +1,13 @@
 //! A gas of a thousand to a million spheres on one thread and on two.
 
 use carom::contact::Surface;
-use carom::real::Real;
+use carom::engine::Compiled;
 use criterion::{BenchmarkId, Criterion};
 
 use crate::{SetupError, criterion_settings, measure, scenes};
 
 /// All benches of this file.
-pub fn benches<T: Real>(criterion: &mut Criterion) -> Result<(), SetupError> {
+pub fn benches<T: Compiled>(criterion: &mut Criterion) -> Result<(), SetupError> {
     for (surface, name) in [(Surface::Smooth, "smooth"), (Surface::Rough, "rough")] {
         let mut group =
             criterion_settings::group(criterion, &format!("gas/{name}/{}", T::NAME), 10);

@@ -14,9 +14,9 @@ mod scenes;
 
 mod gas;
 mod skips;
+mod small;
 
-use carom::engine::{EngineError, Execution, Lanes, Stepped};
-use carom::real::Real;
+use carom::engine::{Compiled, EngineError, Execution, Lanes, Stepped};
 use carom::scene::{Scene, SceneError};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Throughput};
@@ -35,7 +35,7 @@ const WARM_UP_STEPS: u64 = 20;
 
 /// Measures as many steps of a scene as make up a million steps of one body,
 /// but some: a search for candidates serves several steps.
-fn measure<T: Real>(
+fn measure<T: Compiled>(
     group: &mut BenchmarkGroup<'_, WallTime>,
     id: BenchmarkId,
     scene: Scene<T>,
@@ -56,6 +56,8 @@ fn main() -> Result<(), SetupError> {
     gas::benches::<f64>(&mut criterion)?;
     skips::benches::<f32>(&mut criterion)?;
     skips::benches::<f64>(&mut criterion)?;
+    small::benches::<f32>(&mut criterion)?;
+    small::benches::<f64>(&mut criterion)?;
     criterion.final_summary();
     Ok(())
 }

@@ -6,6 +6,7 @@
 
 use carom::column::Column;
 use carom::contact::Surface;
+use carom::engine::Compiled;
 use carom::motion::flight::flight;
 use carom::motion::integrator::Coasting;
 use carom::real::Real;
@@ -22,7 +23,7 @@ use crate::{SetupError, criterion_settings, measure};
 const BODIES: usize = 10_000;
 
 /// All benches of this file.
-pub fn benches<T: Real>(criterion: &mut Criterion) -> Result<(), SetupError> {
+pub fn benches<T: Compiled>(criterion: &mut Criterion) -> Result<(), SetupError> {
     let mut group = criterion_settings::group(criterion, &format!("free flight/{}", T::NAME), 10);
     bare_loop::<T>(&mut group);
     for (name, scene) in free_flights::<T>() {

@@ -1,7 +1,6 @@
 //! `carom explain`: the plan of a scene.
 
-use carom::engine::World;
-use carom::real::Real;
+use carom::engine::{Compiled, World};
 use carom::scene::{Precision, SceneFile};
 
 use super::arguments::SceneArguments;
@@ -19,7 +18,7 @@ pub fn explain(arguments: &SceneArguments) -> Result<(), Failure> {
     print(&plan)
 }
 
-fn plan<T: Real>(file: &SceneFile, arguments: &SceneArguments) -> Result<String, Failure> {
+fn plan<T: Compiled>(file: &SceneFile, arguments: &SceneArguments) -> Result<String, Failure> {
     let world = World::<T>::new(file.build()?, arguments.execution())?;
     let plan = world.plan().to_string();
     Ok(format!("{}\n\n{}\n", file.name, plan.trim_end()))

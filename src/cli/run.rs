@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use carom::bodies::Bodies;
-use carom::engine::World;
+use carom::engine::{Compiled, World};
 use carom::observe::{Temperature, Totals, state_hash};
 use carom::output::{OutputFile, Setup, Summary, Work, write_state};
 use carom::real::Real;
@@ -25,7 +25,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
 }
 
-fn run_in<T: Real>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Failure> {
+fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Failure> {
     let duration = file.run_duration()?;
     let scene = file.build::<T>()?;
     let before = Totals::of(&scene.bodies, scene.gravity);

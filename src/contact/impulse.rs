@@ -20,6 +20,7 @@
 //! Source: the elastic maps of smooth and perfectly rough spheres (Bryan 1894;
 //! Chapman and Cowling, *The Mathematical Theory of Non-uniform Gases*, §11.6).
 
+use super::law::{Closing, Law, Sliding};
 use crate::lane::Lane;
 use crate::vec3::Vec3;
 
@@ -56,13 +57,8 @@ impl<L: Lane> Party<L> {
 
     /// Adds an impulse to the body's motion.
     #[inline(always)]
-    fn receive<const ROUGH: bool>(
-        &mut self,
-        normal: Vec3<L>,
-        tangential: Vec3<L>,
-        torque: Vec3<L>,
-    ) {
-        if ROUGH {
+    fn receive<W: Law<L>>(&mut self, normal: Vec3<L>, tangential: Vec3<L>, torque: Vec3<L>) {
+        if W::CHANGES_SPINS {
             self.velocity += (normal + tangential) * self.inverse_mass;
             self.spin -= torque * (self.share * self.inverse_inertia);
         } else {
@@ -89,12 +85,10 @@ pub struct Impulse<L: Lane> {
 ///
 /// `offset` points from the centre of `b` to the centre of `a`; from the point
 /// of contact to the centre of `a` if `b` is immovable. Its length must be
-/// within the square root of the precision's range. `ROUGH` selects the
-/// perfectly rough surface, `e = β = 1`; otherwise surfaces are frictionless,
-/// `e = 1, β = −1`, and spins are not read.
+/// within the square root of the precision's range.
 ///
 /// ```
-/// use carom::contact::{Party, collide};
+/// use carom::contact::{Party, Smooth, collide};
 /// use carom::vec3::Vec3;
 ///
 /// let rest = Party {
@@ -106,12 +100,13 @@ pub struct Impulse<L: Lane> {
 /// };
 /// let mut a = Party { velocity: Vec3::new(1.0, 0.0, 0.0), ..rest };
 /// let mut b = rest;
-/// collide::<f64, false>(Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
+/// collide(Smooth, Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
 /// assert_eq!(a.velocity.x, 0.0);
 /// assert_eq!(b.velocity.x, 1.0);
 /// ```
 #[inline(always)]
-pub fn collide<L: Lane, const ROUGH: bool>(
+pub fn collide<L: Lane, W: Law<L>>(
+    law: W,
     offset: Vec3<L>,
     a: &mut Party<L>,
     b: &mut Party<L>,
@@ -120,29 +115,32 @@ pub fn collide<L: Lane, const ROUGH: bool>(
     let distance_squared = offset.length_squared();
     let approach = relative.dot(offset);
     let approaching = approach.lt(L::ZERO);
-    let along = offset * (approach / distance_squared);
+    let rate = approach / distance_squared;
+    let along = offset * rate;
 
     let inverse_masses = a.inverse_mass + b.inverse_mass;
-    let minus_two = L::ratio(-2, 1);
-    let mut normal = along * (minus_two / inverse_masses);
+    let closing = Closing { offset, approach, rate, inverse_masses };
+    let normal_factor = law.normal_factor(&closing);
+    let mut normal = along * (normal_factor / inverse_masses);
     normal = Vec3::select(approaching, normal, Vec3::ZERO);
     let mut tangential = Vec3::ZERO;
     let mut torque = Vec3::ZERO;
-    if ROUGH {
+    if W::CHANGES_SPINS {
         let slip = relative - (a.spin * a.share + b.spin * b.share).cross(offset) - along;
         let arms = a.share * a.share * a.inverse_inertia + b.share * b.share * b.inverse_inertia;
-        tangential = slip * (minus_two / (inverse_masses + arms * distance_squared));
+        let inverse_masses = inverse_masses + arms * distance_squared;
+        tangential = law.tangential(&closing, normal_factor, &Sliding { slip, inverse_masses });
         tangential = Vec3::select(approaching, tangential, Vec3::ZERO);
         torque = offset.cross(tangential);
     }
 
     let before = (*a, *b);
-    a.receive::<ROUGH>(normal, tangential, torque);
-    b.receive::<ROUGH>(-normal, -tangential, torque);
+    a.receive::<W>(normal, tangential, torque);
+    b.receive::<W>(-normal, -tangential, torque);
     // Not left to adding zeros: −0 + 0 is another bit pattern.
     a.velocity = Vec3::select(approaching, a.velocity, before.0.velocity);
     b.velocity = Vec3::select(approaching, b.velocity, before.1.velocity);
-    if ROUGH {
+    if W::CHANGES_SPINS {
         a.spin = Vec3::select(approaching, a.spin, before.0.spin);
         b.spin = Vec3::select(approaching, b.spin, before.1.spin);
     }
@@ -161,7 +159,7 @@ pub fn collide<L: Lane, const ROUGH: bool>(
 /// contact to the next, and errors grow as the square root of the number.
 ///
 /// ```
-/// use carom::contact::{Party, collide_spread};
+/// use carom::contact::{Party, Smooth, collide_spread};
 /// use carom::vec3::Vec3;
 ///
 /// let rest = Party {
@@ -173,12 +171,13 @@ pub fn collide<L: Lane, const ROUGH: bool>(
 /// };
 /// let mut a = Party { velocity: Vec3::new(1.0, 0.0, 0.0), ..rest };
 /// let mut b = rest;
-/// let impulse = collide_spread::<f64, false>(Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
+/// let impulse = collide_spread(Smooth, Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
 /// assert_eq!(impulse.normal.x, -1.0);
 /// assert_eq!(b.velocity.x, 1.0);
 /// ```
 #[inline(always)]
-pub fn collide_spread<L: Lane, const ROUGH: bool>(
+pub fn collide_spread<L: Lane, W: Law<L>>(
+    law: W,
     offset: Vec3<L>,
     a: &mut Party<L>,
     b: &mut Party<L>,
@@ -195,7 +194,7 @@ pub fn collide_spread<L: Lane, const ROUGH: bool>(
         ..*party
     };
     let (mut first, mut second) = (scaled(a), scaled(b));
-    let impulse = collide::<L, ROUGH>(offset * factor, &mut first, &mut second);
+    let impulse = collide(law, offset * factor, &mut first, &mut second);
     (a.velocity, a.spin) = (first.velocity, first.spin);
     (b.velocity, b.spin) = (second.velocity, second.spin);
     Impulse {

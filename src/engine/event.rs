@@ -19,7 +19,7 @@ pub enum Partner<T> {
     Surroundings(u32),
 }
 
-/// Who is told of collisions, if anybody is.
+/// What receives the collisions, if anything does.
 pub type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
 
 /// One collision.

@@ -1,6 +1,6 @@
 //! World: a scene in motion, by whichever engine moves it.
 
-use super::{Collisions, EngineError, EventDriven, Execution, Listener, Plan, Stepped};
+use super::{Collisions, Compiled, EngineError, EventDriven, Execution, Listener, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
@@ -34,7 +34,7 @@ pub enum World<T: Real> {
     EventDriven(EventDriven<T>),
 }
 
-impl<T: Real> World<T> {
+impl<T: Compiled> World<T> {
     /// A scene at its start.
     ///
     /// # Errors
@@ -47,7 +47,9 @@ impl<T: Real> World<T> {
             }
         })
     }
+}
 
+impl<T: Real> World<T> {
     /// What the scene needs.
     #[must_use]
     pub fn plan(&self) -> &Plan {
@@ -140,10 +142,7 @@ impl<T: Real> World<T> {
             Self::Stepped(world) => {
                 let left = (mark - world.steps() as f64).ceil() as u64;
                 let steps = stretch.min(left);
-                match on_event {
-                    None => world.advance_steps(steps),
-                    Some(on_event) => (0..steps).for_each(|_| world.step_with(on_event)),
-                }
+                world.take_steps(steps, on_event);
                 Ok(steps == left)
             }
             Self::EventDriven(world) => {

@@ -7,6 +7,16 @@ use crate::vec3::Vec3;
 
 /// A matrix by its columns. An orientation takes body axes to world axes: its
 /// columns are the body's axes in the world frame.
+///
+/// ```
+/// use carom::mat3::Mat3;
+/// use carom::vec3::Vec3;
+///
+/// // A quarter turn about z.
+/// let turn = Mat3::from_rows([0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+/// assert_eq!((turn * Vec3::new(1.0, 0.0, 0.0)).to_array(), [0.0, 1.0, 0.0]);
+/// assert_eq!(turn * turn.transpose(), Mat3::IDENTITY);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mat3<L> {
     /// The three columns.
@@ -15,6 +25,14 @@ pub struct Mat3<L> {
 
 impl<L: Lane> Mat3<L> {
     /// The matrix with these columns.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// use carom::vec3::Vec3;
+    ///
+    /// let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from);
+    /// assert_eq!(Mat3::from_columns(x, y, z), Mat3::IDENTITY);
+    /// ```
     #[inline(always)]
     pub const fn from_columns(x: Vec3<L>, y: Vec3<L>, z: Vec3<L>) -> Self {
         Self { columns: [x, y, z] }
@@ -28,6 +46,12 @@ impl<L: Lane> Mat3<L> {
     );
 
     /// The same matrix in every lane.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// let four = Mat3::<wide::f64x4>::splat(Mat3::IDENTITY);
+    /// assert_eq!(four.columns[2].z.to_array(), [1.0; 4]);
+    /// ```
     #[inline(always)]
     pub fn splat(value: Mat3<L::Scalar>) -> Self {
         let [a, b, c] = value.columns;
@@ -35,6 +59,12 @@ impl<L: Lane> Mat3<L> {
     }
 
     /// The transposed matrix.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// let m = Mat3::from_rows([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+    /// assert_eq!(m.transpose().rows(), [1.0, 4.0, 7.0, 2.0, 5.0, 8.0, 3.0, 6.0, 9.0]);
+    /// ```
     #[inline(always)]
     pub fn transpose(self) -> Self {
         let [a, b, c] = self.columns;
@@ -46,6 +76,11 @@ impl<L: Lane> Mat3<L> {
     }
 
     /// The nine elements, row by row.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// assert_eq!(Mat3::<f64>::IDENTITY.rows(), [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    /// ```
     #[inline(always)]
     pub fn rows(self) -> [L; 9] {
         let [a, b, c] = self.columns;
@@ -53,6 +88,12 @@ impl<L: Lane> Mat3<L> {
     }
 
     /// The matrix with these elements, row by row.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// let m = Mat3::from_rows([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+    /// assert_eq!(m.columns[0].to_array(), [1.0, 4.0, 7.0]);
+    /// ```
     #[inline(always)]
     pub fn from_rows(m: [L; 9]) -> Self {
         Self::from_columns(
@@ -63,6 +104,12 @@ impl<L: Lane> Mat3<L> {
     }
 
     /// Lane by lane, `yes` where the mask is true and `no` elsewhere.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// let (m, zero) = (Mat3::<f64>::IDENTITY, Mat3::from_rows([0.0; 9]));
+    /// assert_eq!(Mat3::select(true, m, zero), m);
+    /// ```
     #[inline(always)]
     pub fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
         Self {

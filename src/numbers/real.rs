@@ -75,6 +75,18 @@ pub trait Real:
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
 
+    /// The nearest number of another precision.
+    ///
+    /// ```
+    /// use carom::real::Real;
+    /// let third = (1.0_f64 / 3.0).cast::<f32>();
+    /// assert_eq!(third, 1.0 / 3.0);
+    /// ```
+    #[inline(always)]
+    fn cast<B: Real>(self) -> B {
+        B::from_f64(self.to_f64())
+    }
+
     /// The whole part, towards zero; the nearest `i64` if it is out of range.
     fn whole_part(self) -> i64;
 

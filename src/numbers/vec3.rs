@@ -3,8 +3,18 @@
 use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use crate::lane::Lane;
+use crate::real::Real;
 
 /// A vector of space: as many vectors as the lane is wide.
+///
+/// ```
+/// use carom::vec3::Vec3;
+///
+/// let mut place = Vec3::new(1.0, 0.0, 0.0) + Vec3::from([0.0, 2.0, 2.0]) * 0.5;
+/// assert_eq!(place.to_array(), [1.0, 1.0, 1.0]);
+/// place -= -Vec3::new(0.0, 0.0, 1.0);
+/// assert_eq!(place.z, 2.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vec3<L> {
     /// First component.
@@ -17,12 +27,22 @@ pub struct Vec3<L> {
 
 impl<L> Vec3<L> {
     /// The vector `(x, y, z)`.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// assert_eq!(Vec3::new(1.0, 2.0, 3.0).y, 2.0);
+    /// ```
     #[inline(always)]
     pub const fn new(x: L, y: L, z: L) -> Self {
         Self { x, y, z }
     }
 
     /// The components as an array.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// assert_eq!(Vec3::new(1.0, 2.0, 3.0).to_array(), [1.0, 2.0, 3.0]);
+    /// ```
     #[inline(always)]
     pub fn to_array(self) -> [L; 3] {
         [self.x, self.y, self.z]
@@ -41,18 +61,35 @@ impl<L: Lane> Vec3<L> {
     pub const ZERO: Self = Self::new(L::ZERO, L::ZERO, L::ZERO);
 
     /// The same vector in every lane.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let four = Vec3::<wide::f64x4>::splat(Vec3::new(1.0, 2.0, 3.0));
+    /// assert_eq!(four.z.to_array(), [3.0; 4]);
+    /// ```
     #[inline(always)]
     pub fn splat(value: Vec3<L::Scalar>) -> Self {
         Self::new(L::splat(value.x), L::splat(value.y), L::splat(value.z))
     }
 
     /// Scalar product.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// assert_eq!(Vec3::new(1.0, 2.0, 3.0).dot(Vec3::new(4.0, 5.0, 6.0)), 32.0);
+    /// ```
     #[inline(always)]
     pub fn dot(self, other: Self) -> L {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     /// Vector product.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let z = Vec3::new(1.0, 0.0, 0.0).cross(Vec3::new(0.0, 1.0, 0.0));
+    /// assert_eq!(z.to_array(), [0.0, 0.0, 1.0]);
+    /// ```
     #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
@@ -63,18 +100,60 @@ impl<L: Lane> Vec3<L> {
     }
 
     /// `self · self`.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// assert_eq!(Vec3::new(2.0, 3.0, 6.0).length_squared(), 49.0);
+    /// ```
     #[inline(always)]
     pub fn length_squared(self) -> L {
         self.dot(self)
     }
 
     /// Euclidean length.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// assert_eq!(Vec3::new(2.0, 3.0, 6.0).length(), 7.0);
+    /// ```
     #[inline(always)]
     pub fn length(self) -> L {
         self.length_squared().sqrt()
     }
 
+    /// The lesser of two, component by component.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let corner = Vec3::new(1.0, 5.0, 3.0).lesser(Vec3::new(4.0, 2.0, 3.0));
+    /// assert_eq!(corner.to_array(), [1.0, 2.0, 3.0]);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn lesser(self, other: Self) -> Self {
+        Self::new(self.x.lesser(other.x), self.y.lesser(other.y), self.z.lesser(other.z))
+    }
+
+    /// The greater of two, component by component.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let corner = Vec3::new(1.0, 5.0, 3.0).greater(Vec3::new(4.0, 2.0, 3.0));
+    /// assert_eq!(corner.to_array(), [4.0, 5.0, 3.0]);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn greater(self, other: Self) -> Self {
+        Self::new(self.x.greater(other.x), self.y.greater(other.y), self.z.greater(other.z))
+    }
+
     /// Lane by lane, `yes` where the mask is true and `no` elsewhere.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let (near, far) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(9.0, 0.0, 0.0));
+    /// assert_eq!(Vec3::select(1.0 < 2.0, near, far), near);
+    /// ```
     #[inline(always)]
     pub fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
         Self::new(
@@ -86,18 +165,37 @@ impl<L: Lane> Vec3<L> {
 
     /// The lanes of the three components. Written out, since the array's own
     /// `map` is not always inlined.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let v = Vec3::<wide::f64x4>::from_arrays([[1.0; 4], [2.0; 4], [0.0, 1.0, 2.0, 3.0]]);
+    /// assert_eq!(v.length_squared().to_array(), [5.0, 6.0, 9.0, 14.0]);
+    /// ```
     #[inline(always)]
     pub fn from_arrays([x, y, z]: [L::Array; 3]) -> Self {
         Self::new(L::from_array(x), L::from_array(y), L::from_array(z))
     }
 
     /// The lanes of the three components.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let v = Vec3::<wide::f64x4>::splat(Vec3::new(1.0, 2.0, 3.0));
+    /// assert_eq!(v.to_arrays(), [[1.0; 4], [2.0; 4], [3.0; 4]]);
+    /// ```
     #[inline(always)]
     pub fn to_arrays(self) -> [L::Array; 3] {
         [self.x.to_array(), self.y.to_array(), self.z.to_array()]
     }
 
     /// Lane `k` is element `indices[k]` of the three columns.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let (x, y, z) = ([1.0, 2.0], [3.0, 4.0], [5.0, 6.0]);
+    /// let second = Vec3::<f64>::gather([&x, &y, &z], &[1]);
+    /// assert_eq!(second.to_array(), [2.0, 4.0, 6.0]);
+    /// ```
     ///
     /// # Panics
     /// As [`Lane::gather`].
@@ -109,6 +207,13 @@ impl<L: Lane> Vec3<L> {
 
     /// Element `indices[k]` of the three columns becomes lane `k`.
     ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let (mut x, mut y, mut z) = ([1.0, 2.0], [3.0, 4.0], [5.0, 6.0]);
+    /// Vec3::new(7.0, 8.0, 9.0).scatter([&mut x, &mut y, &mut z], &[0]);
+    /// assert_eq!((x, y, z), ([7.0, 2.0], [8.0, 4.0], [9.0, 6.0]));
+    /// ```
+    ///
     /// # Panics
     /// As [`Lane::scatter`].
     #[inline(always)]
@@ -117,6 +222,22 @@ impl<L: Lane> Vec3<L> {
         self.x.scatter(x, indices);
         self.y.scatter(y, indices);
         self.z.scatter(z, indices);
+    }
+}
+
+impl<T: Real> Vec3<T> {
+    /// The vector in another precision: every component becomes the nearest
+    /// number.
+    ///
+    /// ```
+    /// use carom::vec3::Vec3;
+    /// let third = Vec3::new(1.0_f64 / 3.0, 0.0, 1.0).cast::<f32>();
+    /// assert_eq!(third.to_array(), [1.0_f32 / 3.0, 0.0, 1.0]);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn cast<B: Real>(self) -> Vec3<B> {
+        Vec3::new(self.x.cast(), self.y.cast(), self.z.cast())
     }
 }
 

@@ -5,7 +5,6 @@ use core::fmt;
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
 use crate::motion::Integrator;
-use crate::observe::wide;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -24,14 +23,15 @@ impl Energy {
     /// The energy of bodies in a uniform field of acceleration `gravity`.
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<T>) -> Self {
-        let gravity = wide(gravity);
+        let gravity = gravity.cast::<f64>();
         let [mut translational, mut rotational, mut potential] = [CompensatedSum::default(); 3];
         for index in 0..bodies.len() {
             let mass = bodies.mass.of(index).to_f64();
             let inertia = bodies.inertia.of(index).to_f64();
-            translational.add(0.5 * mass * wide(bodies.velocity_of(index)).length_squared());
-            rotational.add(0.5 * inertia * wide(bodies.spin_of(index)).length_squared());
-            potential.add(-mass * gravity.dot(wide(bodies.position_of(index))));
+            translational
+                .add(0.5 * mass * bodies.velocity_of(index).cast::<f64>().length_squared());
+            rotational.add(0.5 * inertia * bodies.spin_of(index).cast::<f64>().length_squared());
+            potential.add(-mass * gravity.dot(bodies.position_of(index).cast()));
         }
         Self {
             translational: translational.value(),

@@ -6,7 +6,6 @@ use serde::{Serialize, Serializer};
 
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
-use crate::observe::wide;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -24,7 +23,7 @@ impl Momentum {
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
         Self(total(bodies, |index| {
-            wide(bodies.velocity_of(index)) * bodies.mass.of(index).to_f64()
+            bodies.velocity_of(index).cast::<f64>() * bodies.mass.of(index).to_f64()
         }))
     }
 }
@@ -34,9 +33,12 @@ impl AngularMomentum {
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
         Self(total(bodies, |index| {
-            let orbital = wide(bodies.position_of(index)).cross(wide(bodies.velocity_of(index)));
+            let orbital = bodies
+                .position_of(index)
+                .cast::<f64>()
+                .cross(bodies.velocity_of(index).cast::<f64>());
             orbital * bodies.mass.of(index).to_f64()
-                + wide(bodies.spin_of(index)) * bodies.inertia.of(index).to_f64()
+                + bodies.spin_of(index).cast::<f64>() * bodies.inertia.of(index).to_f64()
         }))
     }
 }

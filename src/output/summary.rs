@@ -62,7 +62,7 @@ impl Setup {
             integrator: stepped.map(|settings| settings.integrator),
             impact: stepped.map(|settings| settings.impact),
             surface: scene.surface,
-            gravity: scene.gravity.to_array().map(T::to_f64),
+            gravity: scene.gravity.cast().to_array(),
             fixed_parts: scene.surroundings.len(),
             periodic: scene.periodic.is_some(),
             dt: stepped.and_then(|settings| settings.dt).map(|dt| shortest(T::from_f64(dt))),

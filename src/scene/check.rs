@@ -1,178 +1,96 @@
-//! Checks of what a scene is told: values one by one, and those that
+//! Checks of what a scene is asked to be: values one by one, and those that
 //! contradict each other. What the bodies then make together is checked in
 //! [`super::check_bodies`].
 
 use core::ops::Range;
 
-use super::builder::{Entry, Periodicity, SceneBuilder};
-use super::check_bodies;
-use super::error::{Problem, SceneError};
+use super::description::{Description, Entry, Given, Periodicity};
+use super::error::{Keyed, Problem, SceneError};
+use super::settings::{EngineKind, MOST_BODIES, MOST_STEPS};
 use super::spheres::{Make, Spheres, Spread};
-use super::{MOST_BODIES, MOST_STEPS};
 use crate::bodies::{Bodies, PerBody};
 use crate::real::Real;
-use crate::scene::EngineKind;
-use crate::surroundings::Shape;
-use crate::vec3::Vec3;
+use crate::space::PeriodicBox;
+use crate::surroundings::{Mistake, corners, finite, is_positive, positive};
 
-/// Whether a number is finite and greater than 0, in the scene's precision too.
-pub(super) fn is_positive<T: Real>(value: f64) -> bool {
-    let rounded = T::from_f64(value);
-    value.is_finite() && rounded > T::ZERO && rounded.is_finite()
-}
-
-/// A problem unless a number is finite and greater than 0.
-fn positive<T: Real>(value: f64, what: &str) -> Result<(), Problem> {
-    if is_positive::<T>(value) {
-        return Ok(());
-    }
-    let precision = if value > 0.0 && value.is_finite() {
-        format!(" in {} too", T::NAME)
-    } else {
-        String::new()
-    };
-    Err(Problem::value(value, format!("{what} must be finite and greater than 0{precision}")))
-}
-
-/// A problem unless every component is finite, in the scene's precision too.
-fn finite<T: Real>(vector: [f64; 3], what: &str) -> Result<(), Problem> {
-    if vector.iter().all(|c| T::from_f64(*c).is_finite()) {
-        return Ok(());
-    }
-    let wanted = format!("every component of {what} must be finite in {}", T::NAME);
-    Err(Problem::value(vector, wanted))
-}
-
-fn is_finite<T: Real>(vector: Vec3<T>) -> bool {
-    vector.to_array().iter().all(|c| c.is_finite())
-}
-
-fn shown<T: Real>(vector: Vec3<T>) -> [f64; 3] {
-    vector.to_array().map(T::to_f64)
-}
+/// A mistake of one body: the key of its entry, and the problem.
+pub(super) type Found = (usize, &'static str, Problem);
 
 /// Checks duration, step, gravity, periodic box and surroundings.
-pub(super) fn settings<T: Real>(builder: &SceneBuilder<T>) -> Result<(), SceneError> {
-    let origin = &builder.origin;
-    let fail = |key: &str, problem| Err(origin.error(key, problem));
-    if !is_finite(builder.gravity) {
-        let wanted = format!("every component of gravity must be finite in {}", T::NAME);
-        return fail("gravity", Problem::value(shown(builder.gravity), wanted));
-    }
+pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError> {
+    let origin = &asked.origin;
+    let fail = |mistake: Mistake| origin.error_in("", mistake);
+    finite::<T>("gravity", asked.gravity.cast(), "every component of gravity").map_err(fail)?;
     // The clock runs in f64, but a step goes through the formulas.
-    if let Some(duration) = builder.duration {
-        positive::<f64>(duration, "a duration")
-            .map_err(|problem| origin.error("duration", problem))?;
+    if let Some(duration) = asked.duration {
+        positive::<f64>("duration", duration, "a duration").map_err(fail)?;
     }
-    match builder.stepped.dt {
-        // Code may choose the engine later: `Stepped::new` asks for it there.
-        None if builder.engine == EngineKind::Stepped && origin.is_file() => {
-            let wanted =
-                "the stepped engine has no default for it: set `dt` under [stepped], or --dt";
-            return fail("stepped.dt", Problem::missing(wanted));
-        }
-        None => {}
-        Some(dt) => {
-            positive::<T>(dt, "a time step")
-                .map_err(|problem| origin.error("stepped.dt", problem))?;
-            let steps = builder.duration.unwrap_or(0.0) / dt;
-            if steps > MOST_STEPS && builder.engine == EngineKind::Stepped {
-                let wanted = format!("that is {steps:e} steps, and 2^53 is the most there can be");
-                return fail("stepped.dt", Problem::value(dt, wanted));
-            }
-        }
+    step(asked).map_err(fail)?;
+    if let Periodicity::Box(Given { rounded: PeriodicBox { lower, upper }, .. }) = asked.periodic {
+        corners(lower, upper).map_err(|mistake| origin.error_in("periodic", mistake))?;
     }
-    if let Periodicity::Box(given) = &builder.periodic {
-        let [lower, upper] = [given.rounded.lower, given.rounded.upper];
-        bounds(lower, upper)
-            .map_err(|(key, problem)| origin.error(format!("periodic.{key}"), problem))?;
-    }
-    let is_periodic = !matches!(builder.periodic, Periodicity::Open);
-    for (index, given) in builder.surroundings.iter().enumerate() {
+    let is_periodic = !matches!(asked.periodic, Periodicity::Open);
+    for (index, given) in asked.surroundings.iter().enumerate() {
         let entry = format!("surroundings[{index}]");
-        shape(&given.rounded)
-            .map_err(|(key, problem)| origin.error(format!("{entry}.{key}"), problem))?;
-        let open = match given.rounded {
-            Shape::Plane(_) => Some("a plane"),
-            Shape::Cuboid(cuboid) if cuboid.inside => Some("a container"),
-            Shape::FixedSphere(sphere) if sphere.inside => Some("a container"),
-            _ => None,
-        };
-        if let (true, Some(what)) = (is_periodic, open) {
+        let shape = given.rounded;
+        shape.check().map_err(|mistake| origin.error_in(&entry, mistake))?;
+        if is_periodic && shape.bounds().is_none() {
+            let what = shape.interior().map_or(shape.name(), |_| "container");
             let reason = format!(
-                "{what} ends space, which a periodic box closes upon itself; leave out one of them"
+                "a {what} ends space, which a periodic box closes upon itself; leave out one of \
+                 them"
             );
-            return fail(&entry, Problem::conflict("a periodic box", reason));
+            return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
         }
     }
     Ok(())
 }
 
-type Keyed = (&'static str, Problem);
-
-fn bounds<T: Real>(lower: Vec3<T>, upper: Vec3<T>) -> Result<(), Keyed> {
-    for (key, corner) in [("lower", lower), ("upper", upper)] {
-        if !is_finite(corner) {
-            let wanted = format!("every component must be finite in {}", T::NAME);
-            return Err((key, Problem::value(shown(corner), wanted)));
+/// The length of a step, and how many of them there are.
+fn step<T: Real>(asked: &Description<T>) -> Result<(), Mistake> {
+    const KEY: &str = "stepped.dt";
+    let is_stepped = asked.engine == EngineKind::Stepped;
+    let Some(dt) = asked.stepped.dt else {
+        // Code may choose the engine later: `Stepped::new` asks for it there.
+        if is_stepped && asked.origin.is_file() {
+            let wanted =
+                "the stepped engine has no default for it: set `dt` under [stepped], or --dt";
+            return Err(Mistake::missing(KEY, wanted));
         }
-    }
-    let sides = (upper - lower).to_array();
-    if sides.iter().all(|side| *side > T::ZERO && side.is_finite()) {
         return Ok(());
-    }
-    let wanted = format!("every component must be below that of upper, {:?}", shown(upper));
-    Err(("lower", Problem::value(shown(lower), wanted)))
-}
-
-fn shape<T: Real>(shape: &Shape<T>) -> Result<(), Keyed> {
-    let place = |key, point: Vec3<T>| {
-        let wanted = format!("every component must be finite in {}", T::NAME);
-        if is_finite(point) { Ok(()) } else { Err((key, Problem::value(shown(point), wanted))) }
     };
-    match shape {
-        Shape::Plane(plane) => {
-            place("point", plane.point)?;
-            let length = plane.normal.length().to_f64();
-            if (length - 1.0).abs() < 1e-3 {
-                return Ok(());
-            }
-            let wanted = "a normal must be finite and have a length greater than 0";
-            Err(("normal", Problem::Value { found: "no direction".into(), wanted: wanted.into() }))
-        }
-        Shape::Cuboid(cuboid) => bounds(cuboid.lower, cuboid.upper),
-        Shape::FixedSphere(sphere) => {
-            place("center", sphere.center)?;
-            positive::<T>(sphere.radius.to_f64(), "a radius").map_err(|problem| ("radius", problem))
-        }
+    positive::<T>(KEY, dt, "a time step")?;
+    let steps = asked.duration.unwrap_or(0.0) / dt;
+    if steps > MOST_STEPS && is_stepped {
+        let wanted = format!("that is {steps:e} steps, and 2^53 is the most there can be");
+        return Err(Mistake::value(KEY, dt, wanted));
     }
+    Ok(())
 }
 
 /// Checks every entry of spheres by itself, and gives the bodies that it
 /// becomes.
-pub(super) fn entries<T: Real>(builder: &SceneBuilder<T>) -> Result<Vec<Range<usize>>, SceneError> {
-    let mut ranges = Vec::with_capacity(builder.entries.len());
+pub(super) fn entries<T: Real>(asked: &Description<T>) -> Result<Vec<Range<usize>>, SceneError> {
+    let mut ranges = Vec::with_capacity(asked.entries.len());
     let mut total = 0_u64;
-    for (index, entry) in builder.entries.iter().enumerate() {
-        let fail = |(key, problem): Keyed| {
-            builder.origin.error(format!("spheres[{index}].{key}"), problem)
-        };
+    for (index, entry) in asked.entries.iter().enumerate() {
+        let name = format!("spheres[{index}]");
+        let fail = |keyed: Keyed| asked.origin.error_in(&name, keyed);
         let count = match entry {
             Entry::One(sphere) => {
                 make::<T>(&sphere.make).map_err(fail)?;
-                finite::<T>(sphere.position, "a position").map_err(|p| fail(("position", p)))?;
+                finite::<T>("position", sphere.position.into(), "every component of a position")
+                    .map_err(|mistake| fail(mistake.into()))?;
                 1
             }
             Entry::Many(spheres) => {
                 make::<T>(&spheres.make).map_err(fail)?;
-                many::<T>(spheres).map_err(fail)?;
+                many::<T>(spheres).map_err(|mistake| fail(mistake.into()))?;
                 spheres.count
             }
             Entry::Ready(bodies) => {
                 columns(bodies).map_err(fail)?;
-                check_bodies::figures(bodies).map_err(|(.., problem)| {
-                    builder.origin.error(format!("spheres[{index}]"), problem)
-                })?;
+                figures(bodies).map_err(|(_, key, problem)| fail((key, problem)))?;
                 bodies.len() as u64
             }
         };
@@ -184,7 +102,7 @@ pub(super) fn entries<T: Real>(builder: &SceneBuilder<T>) -> Result<Vec<Range<us
         }
         ranges.push(start as usize..total as usize);
     }
-    if total == 0 { Err(builder.origin.error("", Problem::Empty)) } else { Ok(ranges) }
+    if total == 0 { Err(asked.origin.error("", Problem::Empty)) } else { Ok(ranges) }
 }
 
 /// What a sphere is and how it starts.
@@ -193,16 +111,16 @@ fn make<T: Real>(make: &Make) -> Result<(), Keyed> {
         let wanted = "it has no default; give a number greater than 0";
         return Err(("radius", Problem::missing(wanted)));
     };
-    spread::<T>(radius, "a radius").map_err(|problem| ("radius", problem))?;
+    spread::<T>("radius", radius, "a radius")?;
     if let Some(mass) = &make.mass {
-        spread::<T>(mass, "a mass").map_err(|problem| ("mass", problem))?;
+        spread::<T>("mass", mass, "a mass")?;
         if make.density.is_some() {
             let reason = "either makes the other; give one of them";
             return Err(("density", Problem::conflict("mass", reason)));
         }
     }
     if let Some(density) = &make.density {
-        spread::<T>(density, "a density").map_err(|problem| ("density", problem))?;
+        spread::<T>("density", density, "a density")?;
     }
     let factor = make.inertia_factor;
     if !(factor > 0.0 && factor <= 2.0 / 3.0 && is_positive::<T>(factor)) {
@@ -210,40 +128,40 @@ fn make<T: Real>(make: &Make) -> Result<(), Keyed> {
                       2/3, a thin shell; a solid sphere has 0.4";
         return Err(("inertia_factor", Problem::value(factor, wanted)));
     }
-    finite::<T>(make.velocity, "a velocity").map_err(|problem| ("velocity", problem))?;
-    finite::<T>(make.spin, "a spin").map_err(|problem| ("spin", problem))
+    finite::<T>("velocity", make.velocity.into(), "every component of a velocity")?;
+    finite::<T>("spin", make.spin.into(), "every component of a spin")?;
+    Ok(())
 }
 
-fn spread<T: Real>(spread: &Spread, what: &str) -> Result<(), Problem> {
-    positive::<T>(spread.least(), what)?;
-    positive::<T>(spread.greatest(), what)?;
+fn spread<T: Real>(key: &'static str, spread: &Spread, what: &str) -> Result<(), Mistake> {
+    positive::<T>(key, spread.least(), what)?;
+    positive::<T>(key, spread.greatest(), what)?;
     if spread.least() > spread.greatest() {
         let found = [spread.least(), spread.greatest()];
-        return Err(Problem::value(found, "the lesser bound comes first"));
+        return Err(Mistake::value(key, found, "the lesser bound comes first"));
     }
     Ok(())
 }
 
 /// What only many spheres have.
-fn many<T: Real>(spheres: &Spheres) -> Result<(), Keyed> {
+fn many<T: Real>(spheres: &Spheres) -> Result<(), Mistake> {
     if spheres.count == 0 {
-        return Err(("count", Problem::value(0, "a count must be at least 1")));
+        return Err(Mistake::value("count", 0, "a count must be at least 1"));
     }
     for (key, temperature) in
         [("temperature", spheres.temperature), ("spin_temperature", spheres.spin_temperature)]
     {
         if !(temperature >= 0.0 && T::from_f64(temperature).is_finite()) {
             let wanted = "a temperature, kT in units of energy, must be finite and not negative";
-            return Err((key, Problem::value(temperature, wanted)));
+            return Err(Mistake::value(key, temperature, wanted));
         }
     }
     if let Some(density) = spheres.number_density {
-        positive::<T>(density, "a number density")
-            .map_err(|problem| ("number_density", problem))?;
+        positive::<T>("number_density", density, "a number density")?;
     }
     match spheres.bounds {
         None => Ok(()),
-        Some([lower, upper]) => bounds::<f64>(lower.into(), upper.into()),
+        Some([lower, upper]) => corners::<f64>(lower.into(), upper.into()),
     }
 }
 
@@ -268,6 +186,30 @@ fn columns<T: Real>(bodies: &Bodies<T>) -> Result<(), Keyed> {
             let found = format!("{len} long");
             let wanted = format!("all columns must be as long as the first, {}", bodies.len());
             return Err((key, Problem::Value { found, wanted }));
+        }
+    }
+    Ok(())
+}
+
+/// Radii, masses and moments of inertia.
+pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+    let figures =
+        [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
+    for (key, figure) in figures {
+        let values = match figure {
+            PerBody::Same(value) => core::slice::from_ref(value),
+            PerBody::Each(column) => column,
+        };
+        let wrong = values.iter().position(|value| !(*value > T::ZERO && value.is_finite()));
+        if let Some(body) = wrong {
+            let what = if key == "inertia" { "moment of inertia" } else { key };
+            let found = format!(
+                "such that the {what} of body {body} is {:?} in {}",
+                values[body].to_f64(),
+                T::NAME
+            );
+            let wanted = "it must be finite and greater than 0".to_owned();
+            return Err((body, "", Problem::Value { found, wanted }));
         }
     }
     Ok(())

@@ -3,10 +3,11 @@
 
 use core::ops::Range;
 
-use super::Encounters;
-use super::builder::SceneBuilder;
+use super::check::{Found, figures};
+use super::description::Description;
 use super::error::{Problem, SceneError};
 use super::obstacles::{Misplaced, Obstacles};
+use super::settings::Encounters;
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
@@ -15,40 +16,36 @@ use crate::space::neighbours::{Neighbours, largest, tolerance};
 use crate::surroundings::{Feature, Shape};
 use crate::vec3::Vec3;
 
-/// A mistake of one body: the key of its entry, and the problem.
-pub(super) type Found = (usize, &'static str, Problem);
-
 /// Checks all bodies. Centres on the upper face of the periodic box move to
 /// the lower one, which is the same place.
 pub(super) fn bodies<T: Real>(
-    builder: &SceneBuilder<T>,
+    asked: &Description<T>,
     periodic: Option<PeriodicBox<T>>,
     mut bodies: Bodies<T>,
     ranges: &[Range<usize>],
 ) -> Result<Bodies<T>, SceneError> {
     let of_entry = |(body, key, problem): Found| {
         let entry = ranges.partition_point(|range| range.end <= body);
-        let dot = if key.is_empty() { "" } else { "." };
-        builder.origin.error(format!("spheres[{entry}]{dot}{key}"), problem)
+        asked.origin.error_in(&format!("spheres[{entry}]"), (key, problem))
     };
     figures(&bodies).map_err(of_entry)?;
     motion(&bodies).map_err(of_entry)?;
     orientation(&bodies).map_err(of_entry)?;
     if let Some(space) = &periodic {
-        if builder.encounters == Encounters::All {
-            sides(space, &bodies).map_err(|problem| builder.origin.error("periodic", problem))?;
+        if asked.encounters == Encounters::All {
+            sides(space, &bodies).map_err(|problem| asked.origin.error("periodic", problem))?;
         }
         wrap(space, &mut bodies).map_err(of_entry)?;
     }
-    if builder.encounters != Encounters::None {
-        let shapes: Vec<_> = builder.surroundings.iter().map(|given| given.rounded).collect();
+    if asked.encounters != Encounters::None {
+        let shapes: Vec<_> = asked.surroundings.iter().map(|given| given.rounded).collect();
         let misplaced = surroundings(&shapes, &bodies);
         let first = misplaced.as_ref().map_or(shapes.len(), |misplaced| misplaced.0 + 1);
         if let Some(space) = &periodic {
             let radius = bodies.radius.greatest();
             for (index, shape) in shapes[..first].iter().enumerate() {
                 within(shape, space, radius).map_err(|problem| {
-                    builder.origin.error(format!("surroundings[{index}]"), problem)
+                    asked.origin.error(format!("surroundings[{index}]"), problem)
                 })?;
             }
         }
@@ -56,34 +53,10 @@ pub(super) fn bodies<T: Real>(
             return Err(of_entry(found));
         }
     }
-    if builder.encounters == Encounters::All {
+    if asked.encounters == Encounters::All {
         overlaps(periodic, &bodies).map_err(of_entry)?;
     }
     Ok(bodies)
-}
-
-/// Radii, masses and moments of inertia.
-pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
-    let figures =
-        [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
-    for (key, figure) in figures {
-        let values = match figure {
-            PerBody::Same(value) => core::slice::from_ref(value),
-            PerBody::Each(column) => column,
-        };
-        let wrong = values.iter().position(|value| !(*value > T::ZERO && value.is_finite()));
-        if let Some(body) = wrong {
-            let what = if key == "inertia" { "moment of inertia" } else { key };
-            let found = format!(
-                "such that the {what} of body {body} is {:?} in {}",
-                values[body].to_f64(),
-                T::NAME
-            );
-            let wanted = "it must be finite and greater than 0".to_owned();
-            return Err((body, "", Problem::Value { found, wanted }));
-        }
-    }
-    Ok(())
 }
 
 /// Places, velocities and spins.
@@ -126,7 +99,7 @@ fn orientation<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
 /// half a side away: that has to be a contact distance or more.
 fn sides<T: Real>(space: &PeriodicBox<T>, bodies: &Bodies<T>) -> Result<(), Problem> {
     let needed = 4.0 * bodies.radius.greatest().to_f64();
-    let sides = space.sides().to_array().map(T::to_f64);
+    let sides = space.sides().cast::<f64>().to_array();
     let limit = needed * (1.0 - 8.0 * T::EPSILON.to_f64());
     match sides.iter().find(|side| **side < limit) {
         None => Ok(()),
@@ -167,13 +140,8 @@ fn wrap<T: Real>(space: &PeriodicBox<T>, bodies: &mut Bodies<T>) -> Result<(), F
 /// What is solid in a periodic box must be met from one side of it only: the
 /// images of what is fixed are not looked for.
 fn within<T: Real>(shape: &Shape<T>, space: &PeriodicBox<T>, radius: T) -> Result<(), Problem> {
-    let [lower, upper] = match shape {
-        Shape::Cuboid(cuboid) => [cuboid.lower, cuboid.upper],
-        Shape::FixedSphere(sphere) => {
-            let reach = [sphere.radius; 3].into();
-            [sphere.center - reach, sphere.center + reach]
-        }
-        Shape::Plane(_) => return Ok(()),
+    let Some([lower, upper]) = shape.bounds() else {
+        return Ok(());
     };
     let [low, high] = [(lower - space.lower).to_array(), (space.upper - upper).to_array()];
     if low.iter().chain(&high).all(|margin| *margin >= radius) {
@@ -194,7 +162,7 @@ fn surroundings<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Option<(usi
     let epsilon = T::EPSILON.to_f64();
     let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
     let tolerated = |feature: &Feature<T>, center: Vec3<T>, radius: T| {
-        let coordinate = largest(center.to_array().map(T::to_f64)) + farthest(feature);
+        let coordinate = largest(center.cast().to_array()) + feature.farthest();
         tolerance(epsilon, coordinate, radius.to_f64())
     };
     let Misplaced { shape, body, depth } =
@@ -210,16 +178,6 @@ fn surroundings<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Option<(usi
         ),
     };
     Some((shape, (body, "", Problem::Misplaced { body, beyond, depth, wanted })))
-}
-
-/// The largest coordinate that a feature's clearance is made of.
-fn farthest<T: Real>(feature: &Feature<T>) -> f64 {
-    let far = |point: Vec3<T>| largest(point.to_array().map(T::to_f64));
-    match feature {
-        Feature::Plane(plane) => far(plane.point),
-        Feature::Cuboid(cuboid) => far(cuboid.lower).max(far(cuboid.upper)),
-        Feature::FixedSphere(sphere) => far(sphere.center) + sphere.radius.to_f64(),
-    }
 }
 
 /// No two bodies overlap. The largest go first, and each then meets only

@@ -1,10 +1,10 @@
 //! Dilated: the scene of a file with more or fewer bodies, as dense as before.
 
-use super::MOST_BODIES;
 use super::error::{Problem, SceneError};
 use super::file::SceneFile;
 use super::generate::cube_root;
-use super::raw::{Number, RawPeriodic, RawScene, RawSpheres, Vector, Whole};
+use super::raw::{RawPeriodic, RawScene, RawSpheres, Vector, Whole};
+use super::settings::MOST_BODIES;
 use super::spheres::Arrangement;
 
 impl SceneFile {
@@ -106,14 +106,8 @@ impl RawScene {
             dilate(&mut bounds.lower);
             dilate(&mut bounds.upper);
         }
-        for shape in &mut self.surroundings {
-            dilate(&mut shape.point);
-            dilate(&mut shape.lower);
-            dilate(&mut shape.upper);
-            dilate(&mut shape.center);
-            if let (Some(true), Some(Number(radius))) = (shape.inside, &mut shape.radius) {
-                *radius *= factor;
-            }
+        for raw in &mut self.surroundings {
+            raw.values.dilate(factor);
         }
         for spheres in &mut self.spheres {
             dilate(&mut spheres.position);

@@ -5,6 +5,8 @@ use std::io;
 
 use thiserror::Error;
 
+use crate::surroundings::Mistake;
+
 /// Where a mistake is.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
@@ -160,6 +162,24 @@ impl Problem {
     /// A value that has no meaning beside another.
     pub(super) fn conflict(other: impl Into<String>, reason: impl Into<String>) -> Self {
         Self::Conflict { other: other.into(), reason: reason.into() }
+    }
+}
+
+impl From<Mistake> for Problem {
+    fn from(Mistake { found, wanted, .. }: Mistake) -> Self {
+        match found {
+            Some(found) => Self::Value { found, wanted },
+            None => Self::Missing { wanted },
+        }
+    }
+}
+
+/// A problem, and the key of its entry that is to blame.
+pub(super) type Keyed = (&'static str, Problem);
+
+impl From<Mistake> for Keyed {
+    fn from(mistake: Mistake) -> Self {
+        (mistake.key, mistake.into())
     }
 }
 

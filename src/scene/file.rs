@@ -1,20 +1,20 @@
-//! The scene file: from TOML to a builder.
+//! The scene file: from TOML to a description.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use super::builder::SceneBuilder;
+use super::builtin;
+use super::checked::Scene;
+use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
 use super::origin::Origin;
-use super::raw::{
-    Number, RawPeriodic, RawScene, RawShape, RawSpheres, RawSurroundings, Vector, Whole,
-};
+use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
+use super::settings::{EngineKind, Precision, SteppedSettings};
 use super::spheres::{Make, Sphere, Spheres};
-use super::{Precision, Scene, builtin};
 use crate::real::Real;
-use crate::scene::EngineKind;
 use crate::space::PeriodicBox;
-use crate::surroundings::{Cuboid, FixedSphere, Plane, Shape};
+use crate::surroundings::{Mistake, NO_VECTOR, SHAPE_KINDS, Shape, ShapeKind};
+use crate::vec3::Vec3;
 
 /// A scene file, read but not yet built: the precision is still to choose.
 ///
@@ -25,7 +25,7 @@ use crate::surroundings::{Cuboid, FixedSphere, Plane, Shape};
 /// | `duration` | | time; a run needs it |
 /// | `gravity` | `[0, 0, 0]` | length per time² |
 /// | `seed` | 0 | of all random numbers |
-/// | `encounters` | `"all"` | who can meet whom; or `"surroundings"`, `"none"` |
+/// | `encounters` | `"all"` | what spheres can meet; or `"surroundings"`, `"none"` |
 /// | `periodic` | | a table with `lower` and `upper`, or `"cube"`, sized by a `number_density` |
 ///
 /// | `[stepped]` | Default | |
@@ -36,10 +36,10 @@ use crate::surroundings::{Cuboid, FixedSphere, Plane, Shape};
 /// | `orientation` | `"when-asked"` | or `"each-step"` |
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
-/// `[[surroundings]]` have a `shape`: a `"plane"` with `point` and `normal` (of
-/// any length, out of the solid), a `"box"` with `lower`, `upper` and `inside`, a
-/// `"sphere"` with `center`, `radius` and `inside`; `inside = true` makes a
-/// container.
+/// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
+/// keys: see [`Plane`](crate::surroundings::Plane),
+/// [`Cuboid`](crate::surroundings::Cuboid) and
+/// [`FixedSphere`](crate::surroundings::FixedSphere).
 ///
 /// | `[[spheres]]` | Default | |
 /// |---|---|---|
@@ -161,37 +161,37 @@ impl SceneFile {
     /// If a value, or what the values make together, is not possible.
     pub fn build<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let origin = self.origin();
-        let mut builder = SceneBuilder::<T>::new()
-            .name(self.name.clone())
-            .engine(self.engine)
-            .seed(self.seed)
-            .surface(self.raw.surface.kind.unwrap_or_default())
-            .encounters(self.raw.encounters.unwrap_or_default())
-            .integrator(self.raw.stepped.integrator.unwrap_or_default())
-            .impact(self.raw.stepped.impact.unwrap_or_default())
-            .orientation(self.raw.stepped.orientation.unwrap_or_default());
-        builder.duration = self.duration;
-        builder.stepped.dt = self.dt;
+        let mut asked = Description::<T>::new(self.name.clone(), origin.clone());
+        asked.engine = self.engine;
+        asked.duration = self.duration;
+        asked.seed = self.seed;
+        asked.surface = self.raw.surface.kind.unwrap_or_default();
+        asked.encounters = self.raw.encounters.unwrap_or_default();
+        asked.stepped = SteppedSettings {
+            dt: self.dt,
+            integrator: self.raw.stepped.integrator.unwrap_or_default(),
+            impact: self.raw.stepped.impact.unwrap_or_default(),
+            orientation: self.raw.stepped.orientation.unwrap_or_default(),
+        };
         if let Some(Vector(gravity)) = self.raw.gravity {
-            builder = builder.gravity(gravity.map(T::from_f64));
+            asked.gravity = Vec3::from(gravity).cast();
         }
-        match &self.raw.periodic {
-            None => {}
-            Some(RawPeriodic::Cube) => builder = builder.periodic_cube(),
+        asked.periodic = match &self.raw.periodic {
+            None => Periodicity::Open,
+            Some(RawPeriodic::Cube) => Periodicity::Cube,
             Some(RawPeriodic::Box(bounds)) => {
                 let lower = required(&origin, "periodic", "lower", bounds.lower)?;
                 let upper = required(&origin, "periodic", "upper", bounds.upper)?;
-                builder.set_periodic(PeriodicBox::new(lower, upper));
+                Periodicity::Box(GivenBox::exact(PeriodicBox::new(lower, upper)))
             }
-        }
+        };
         for (index, raw) in self.raw.surroundings.iter().enumerate() {
-            builder.add_surroundings(shape(&origin, index, raw)?);
+            asked.surroundings.push(GivenShape::exact(shape(&origin, index, raw)?));
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
-            builder = add_spheres(builder, &origin, index, raw)?;
+            asked.entries.push(spheres(&origin, index, raw)?);
         }
-        builder.origin = origin;
-        builder.build()
+        Scene::new(asked)
     }
 
     /// Which values came from where.
@@ -216,70 +216,43 @@ fn number(value: Option<Number>) -> Option<f64> {
 fn required(
     origin: &Origin,
     entry: &str,
-    key: &str,
+    key: &'static str,
     value: Option<Vector>,
 ) -> Result<[f64; 3], SceneError> {
-    value.map(|Vector(vector)| vector).ok_or_else(|| {
-        let problem = Problem::missing("three numbers belong here, as in [0.0, 0.0, 1.0]");
-        origin.error(format!("{entry}.{key}"), problem)
-    })
+    value
+        .map(|Vector(vector)| vector)
+        .ok_or_else(|| origin.error_in(entry, Mistake::missing(key, NO_VECTOR)))
 }
 
 /// One entry of the surroundings, with the keys of its shape and no others.
 fn shape(origin: &Origin, index: usize, raw: &RawSurroundings) -> Result<Shape<f64>, SceneError> {
     let entry = format!("surroundings[{index}]");
-    let vector = |key: &str, value| required(origin, &entry, key, value);
-    let Some(shape) = raw.shape else {
-        let problem = Problem::missing("it is \"plane\", \"box\" or \"sphere\"");
-        return Err(origin.error(format!("{entry}.shape"), problem));
+    let Some(ShapeKind { name, keys, read }) = raw.shape else {
+        let problem = Problem::missing(format!("it is {}", shapes()));
+        return Err(origin.error_in(&entry, ("shape", problem)));
     };
-    let (name, keys): (_, &[&str]) = match shape {
-        RawShape::Plane => ("plane", &["point", "normal"]),
-        RawShape::Box => ("box", &["lower", "upper", "inside"]),
-        RawShape::Sphere => ("sphere", &["center", "radius", "inside"]),
-    };
-    let given = [
-        ("point", raw.point.is_some()),
-        ("normal", raw.normal.is_some()),
-        ("lower", raw.lower.is_some()),
-        ("upper", raw.upper.is_some()),
-        ("center", raw.center.is_some()),
-        ("radius", raw.radius.is_some()),
-        ("inside", raw.inside.is_some()),
-    ];
-    if let Some((key, _)) = given.iter().find(|(key, given)| *given && !keys.contains(key)) {
+    if let Some(key) = KEYS.iter().find(|key| raw.values.has(**key) && !keys.contains(key)) {
+        let keys: Vec<_> = keys.iter().map(|key| key.name).collect();
         let reason = format!("a {name} has {}", keys.join(", "));
         let problem = Problem::conflict(format!("shape = \"{name}\""), reason);
-        return Err(origin.error(format!("{entry}.{key}"), problem));
+        return Err(origin.error_in(&entry, (key.name, problem)));
     }
-    let inside = raw.inside.unwrap_or(false);
-    Ok(match shape {
-        RawShape::Plane => {
-            Plane::new(vector("point", raw.point)?, vector("normal", raw.normal)?).into()
-        }
-        RawShape::Box => {
-            let lower = vector("lower", raw.lower)?.into();
-            let upper = vector("upper", raw.upper)?.into();
-            Cuboid { lower, upper, inside }.into()
-        }
-        RawShape::Sphere => {
-            let center = vector("center", raw.center)?.into();
-            let Some(Number(radius)) = raw.radius else {
-                let problem = Problem::missing("a sphere has a radius greater than 0");
-                return Err(origin.error(format!("{entry}.radius"), problem));
-            };
-            FixedSphere { center, radius, inside }.into()
-        }
-    })
+    read(&raw.values).map_err(|mistake| origin.error_in(&entry, mistake))
 }
 
-/// Adds one entry of spheres, with the keys of one or of many.
-fn add_spheres<T: Real>(
-    builder: SceneBuilder<T>,
+/// The names of all shapes, with an "or" before the last.
+fn shapes() -> String {
+    let names: Vec<_> = SHAPE_KINDS.iter().map(|kind| format!("\"{}\"", kind.name)).collect();
+    let names = names.join(", ");
+    names.rsplit_once(", ").map_or(names.clone(), |(first, last)| format!("{first} or {last}"))
+}
+
+/// One entry of spheres, with the keys of one or of many.
+fn spheres<T: Real>(
     origin: &Origin,
     index: usize,
     raw: &RawSpheres,
-) -> Result<SceneBuilder<T>, SceneError> {
+) -> Result<Entry<T>, SceneError> {
     let entry = format!("spheres[{index}]");
     let make = Make {
         radius: raw.radius,
@@ -304,7 +277,7 @@ fn add_spheres<T: Real>(
             let problem = Problem::conflict("position", reason);
             return Err(origin.error(format!("{entry}.{key}"), problem));
         }
-        return Ok(builder.sphere(Sphere { position, make }));
+        return Ok(Entry::One(Sphere { position, make }));
     }
     let Some(Whole(count)) = raw.count else {
         let wanted = "an entry is one sphere with a position, or a count of them";
@@ -321,7 +294,7 @@ fn add_spheres<T: Real>(
             required(origin, &entry, "upper", upper)?,
         ]),
     };
-    Ok(builder.spheres(Spheres {
+    Ok(Entry::Many(Spheres {
         count,
         arrangement,
         bounds,

@@ -3,31 +3,31 @@
 use core::ops::Range;
 
 use super::arrangement::{self, Layout, Region, free_place};
-use super::builder::{Entry, GivenBox, Periodicity, SceneBuilder, rounded_box};
+use super::description::{Description, Entry, GivenBox, Periodicity};
 use super::error::{Problem, SceneError};
 use super::figures::Figures;
 use super::filling::Filling;
 use super::obstacles::Obstacles;
 use super::random::{Purpose, Seed};
+use super::settings::Encounters;
 use super::spheres::{Arrangement, Spheres, Spread};
-use super::{Encounters, check};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::space::neighbours::Neighbours;
-use crate::surroundings::Shape;
+use crate::surroundings::is_positive;
 
 /// The periodic box, as given or sized by a number density.
 pub(super) fn periodic_box<T: Real>(
-    builder: &SceneBuilder<T>,
+    asked: &Description<T>,
 ) -> Result<Option<GivenBox<T>>, SceneError> {
-    let mut sized = builder.entries.iter().enumerate().filter_map(|(index, entry)| match entry {
+    let mut sized = asked.entries.iter().enumerate().filter_map(|(index, entry)| match entry {
         Entry::Many(spheres) => spheres.number_density.map(|density| (index, spheres, density)),
         _ => None,
     });
     let first = sized.next();
     let key = |index| format!("spheres[{index}].number_density");
-    match (builder.periodic, first) {
+    match (asked.periodic, first) {
         (Periodicity::Open, None) => Ok(None),
         (Periodicity::Box(given), None) => Ok(Some(given)),
         (Periodicity::Cube, None) => {
@@ -35,35 +35,35 @@ pub(super) fn periodic_box<T: Real>(
                 "cube",
                 "one group of spheres has to size the cube with a number_density",
             );
-            Err(builder.origin.error("periodic", problem))
+            Err(asked.origin.error("periodic", problem))
         }
         (Periodicity::Open, Some((index, ..))) => {
             let reason = "write periodic = \"cube\" at the top, which it sizes";
             let problem = Problem::conflict("open space", reason);
-            Err(builder.origin.error(key(index), problem))
+            Err(asked.origin.error(key(index), problem))
         }
         (Periodicity::Box(_), Some((index, ..))) => {
             let reason = "the box has its size already; write periodic = \"cube\" instead of it";
             let problem = Problem::conflict("the bounds of a periodic box", reason);
-            Err(builder.origin.error(key(index), problem))
+            Err(asked.origin.error(key(index), problem))
         }
         (Periodicity::Cube, Some((index, spheres, density))) => {
             if let Some((second, ..)) = sized.next() {
                 let reason = "one group sizes the cube, the others fill it";
                 let problem = Problem::conflict(key(index), reason);
-                return Err(builder.origin.error(key(second), problem));
+                return Err(asked.origin.error(key(second), problem));
             }
             if spheres.bounds.is_some() {
                 let reason = "the cube that it sizes is what the spheres fill";
                 let problem = Problem::conflict(format!("spheres[{index}].lower"), reason);
-                return Err(builder.origin.error(key(index), problem));
+                return Err(asked.origin.error(key(index), problem));
             }
             let side = cube_root(spheres.count as f64 / density);
-            if !check::is_positive::<T>(side) {
+            if !is_positive::<T>(side) {
                 let wanted = "it has to make a cube of a size that is finite and not 0";
-                return Err(builder.origin.error(key(index), Problem::value(density, wanted)));
+                return Err(asked.origin.error(key(index), Problem::value(density, wanted)));
             }
-            Ok(Some(rounded_box(PeriodicBox::new([0.0; 3], [side; 3]))))
+            Ok(Some(GivenBox::exact(PeriodicBox::new([0.0; 3], [side; 3]))))
         }
     }
 }
@@ -84,41 +84,39 @@ pub(super) fn cube_root(value: f64) -> f64 {
 /// The bodies of all entries, in their order. Entries with a place of their own
 /// and lattices settle first, then random groups scatter among them.
 pub(super) fn bodies<T: Real>(
-    builder: &mut SceneBuilder<T>,
+    asked: &mut Description<T>,
     periodic: Option<PeriodicBox<f64>>,
     ranges: &[Range<usize>],
 ) -> Result<Bodies<T>, SceneError> {
-    if let [Entry::Ready(_)] = builder.entries.as_slice()
-        && let Some(Entry::Ready(bodies)) = builder.entries.pop()
+    if let [Entry::Ready(_)] = asked.entries.as_slice()
+        && let Some(Entry::Ready(bodies)) = asked.entries.pop()
     {
         return Ok(*bodies);
     }
-    let builder = &*builder;
-    let layouts = layouts(builder, periodic)?;
+    let asked = &*asked;
+    let layouts = layouts(asked, periodic)?;
     let len = ranges.last().map_or(0, |range| range.end);
     let has_random = layouts.iter().any(|layout| matches!(layout, Some(Layout::Random(_))));
-    let must_find_room = has_random && builder.encounters == Encounters::All;
+    let must_find_room = has_random && asked.encounters == Encounters::All;
     let mut generation = Generation {
         filling: Filling::new(len),
         neighbours: must_find_room
-            .then(|| Neighbours::new(len, greatest_radius(builder), 0.0, periodic)),
+            .then(|| Neighbours::new(len, greatest_radius(asked), 0.0, periodic)),
     };
-    let entries = || builder.entries.iter().zip(ranges).zip(&layouts).enumerate();
+    let entries = || asked.entries.iter().zip(ranges).zip(&layouts).enumerate();
     for (index, ((entry, range), layout)) in entries() {
-        generation.settle(entry, range, layout.as_ref(), seed(builder, entry, index));
+        generation.settle(entry, range, layout.as_ref(), seed(asked, entry, index));
     }
-    let fixed: Vec<_> = match builder.encounters {
+    let fixed: Vec<_> = match asked.encounters {
         Encounters::None => Vec::new(),
-        _ => builder.surroundings.iter().map(|given| given.exact).collect(),
+        _ => asked.surroundings.iter().map(|given| given.exact).collect(),
     };
     let fixed = Obstacles::new(&fixed);
     for (index, ((entry, range), layout)) in entries() {
         if let (Entry::Many(spheres), Some(Layout::Random(region))) = (entry, layout) {
-            generation
-                .scatter(spheres, range, region, &fixed, seed(builder, entry, index))
-                .map_err(|problem| {
-                    builder.origin.error(format!("spheres[{index}].count"), problem)
-                })?;
+            generation.scatter(spheres, range, region, &fixed, seed(asked, entry, index)).map_err(
+                |problem| asked.origin.error(format!("spheres[{index}].count"), problem),
+            )?;
         }
     }
     Ok(generation.filling.into_bodies())
@@ -168,7 +166,7 @@ impl<T: Real> Generation<T> {
                 self.filling.copy(range.start, bodies);
                 if let Some(table) = &mut self.neighbours {
                     for k in 0..bodies.len() {
-                        let center = bodies.position_of(k).to_array().map(T::to_f64);
+                        let center = bodies.position_of(k).cast().to_array();
                         let radius = bodies.radius.of(k).to_f64();
                         table.insert((range.start + k) as u32, center, radius);
                     }
@@ -209,7 +207,7 @@ impl<T: Real> Generation<T> {
 
 /// The layouts of all groups, before anything is allocated for them.
 fn layouts<T: Real>(
-    builder: &SceneBuilder<T>,
+    asked: &Description<T>,
     periodic: Option<PeriodicBox<f64>>,
 ) -> Result<Vec<Option<Layout>>, SceneError> {
     let layout = |(index, entry): (usize, &Entry<T>)| {
@@ -217,23 +215,23 @@ fn layouts<T: Real>(
             return Ok(None);
         };
         let key = format!("spheres[{index}]");
-        let Some(region) = region(builder, spheres, periodic) else {
+        let Some(region) = region(asked, spheres, periodic) else {
             let wanted = "nothing bounds these spheres: give lower and upper, a periodic box or a \
                           container";
-            return Err(builder.origin.error(format!("{key}.lower"), Problem::missing(wanted)));
+            return Err(asked.origin.error(format!("{key}.lower"), Problem::missing(wanted)));
         };
-        let can_meet = builder.encounters == Encounters::All;
+        let can_meet = asked.encounters == Encounters::All;
         let radius = spheres.make.radius.unwrap_or(Spread::Same(0.0));
         Layout::new(spheres.arrangement, spheres.count, &radius, region, can_meet)
             .map(Some)
-            .map_err(|problem| builder.origin.error(format!("{key}.count"), problem))
+            .map_err(|problem| asked.origin.error(format!("{key}.count"), problem))
     };
-    builder.entries.iter().enumerate().map(layout).collect()
+    asked.entries.iter().enumerate().map(layout).collect()
 }
 
 /// The box that a group fills.
 fn region<T: Real>(
-    builder: &SceneBuilder<T>,
+    asked: &Description<T>,
     spheres: &Spheres,
     periodic: Option<PeriodicBox<f64>>,
 ) -> Option<Region> {
@@ -244,17 +242,11 @@ fn region<T: Real>(
         let [lower, upper] = [space.lower.to_array(), space.upper.to_array()];
         return Some(Region { lower, upper, is_periodic: true });
     }
-    // What all containers have in common; a lattice takes the cube in a sphere.
-    let interiors = builder.surroundings.iter().filter_map(|given| {
-        let [lower, upper] = match given.exact {
-            Shape::FixedSphere(sphere)
-                if sphere.inside && spheres.arrangement != Arrangement::Random =>
-            {
-                let reach = [sphere.radius / 3.0_f64.sqrt(); 3].into();
-                [sphere.center - reach, sphere.center + reach]
-            }
-            shape => shape.interior()?,
-        };
+    // What all containers have in common; a lattice takes a box inside of it.
+    let is_lattice = spheres.arrangement != Arrangement::Random;
+    let interiors = asked.surroundings.iter().filter_map(|given| {
+        let shape = given.exact;
+        let [lower, upper] = if is_lattice { shape.inscribed() } else { shape.interior() }?;
         Some(Region { lower: lower.to_array(), upper: upper.to_array(), is_periodic: false })
     });
     interiors.reduce(|a, b| Region {
@@ -265,19 +257,19 @@ fn region<T: Real>(
 }
 
 /// The greatest radius of all entries.
-fn greatest_radius<T: Real>(builder: &SceneBuilder<T>) -> f64 {
+fn greatest_radius<T: Real>(asked: &Description<T>) -> f64 {
     let radius = |entry: &Entry<T>| match entry {
         Entry::One(sphere) => sphere.make.radius.map_or(0.0, |radius| radius.greatest()),
         Entry::Many(spheres) => spheres.make.radius.map_or(0.0, |radius| radius.greatest()),
         Entry::Ready(bodies) => bodies.radius.greatest().to_f64(),
     };
-    builder.entries.iter().map(radius).fold(0.0, f64::max)
+    asked.entries.iter().map(radius).fold(0.0, f64::max)
 }
 
 /// Where the random numbers of an entry come from.
-fn seed<T: Real>(builder: &SceneBuilder<T>, entry: &Entry<T>, index: usize) -> Seed {
+fn seed<T: Real>(asked: &Description<T>, entry: &Entry<T>, index: usize) -> Seed {
     match entry {
         Entry::Many(Spheres { seed: Some(seed), .. }) => Seed { seed: *seed, group: 0 },
-        _ => Seed { seed: builder.seed, group: index as u64 },
+        _ => Seed { seed: asked.seed, group: index as u64 },
     }
 }

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::{Place, Problem, SceneError};
+use super::error::{Keyed, Place, Problem, SceneError};
 
 /// Where the values of a scene come from.
 #[derive(Clone, Debug)]
@@ -53,6 +53,14 @@ impl Origin {
             _ => None,
         };
         self.error_at(key, line, option, problem)
+    }
+
+    /// The error that a problem with a key of an entry makes; an entry without a
+    /// name is the scene.
+    pub(super) fn error_in(&self, entry: &str, problem: impl Into<Keyed>) -> SceneError {
+        let (key, problem) = problem.into();
+        let dot = if entry.is_empty() || key.is_empty() { "" } else { "." };
+        self.error(format!("{entry}{dot}{key}"), problem)
     }
 
     /// The error that the TOML library reports, in this crate's words.

@@ -1,16 +1,19 @@
 //! The scene file as it is written, before anything is checked but its keys
 //! and types.
 
+mod surroundings;
+
 use core::fmt;
 
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
 
+pub(super) use surroundings::{KEYS, RawSurroundings};
+
+use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Precision};
 use super::spheres::{Arrangement, Spread};
-use super::{Encounters, Precision};
 use crate::contact::Surface;
 use crate::motion::Integrator;
-use crate::scene::{EngineKind, Impact, OrientationUpdate};
 
 /// The whole file.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -63,29 +66,6 @@ pub(super) enum RawPeriodic {
 pub(super) struct RawBounds {
     pub(super) lower: Option<Vector>,
     pub(super) upper: Option<Vector>,
-}
-
-/// What `shape` says.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum RawShape {
-    Plane,
-    Box,
-    Sphere,
-}
-
-/// `[[surroundings]]`: the keys of all shapes, sorted out by the shape later.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawSurroundings {
-    pub(super) shape: Option<RawShape>,
-    pub(super) point: Option<Vector>,
-    pub(super) normal: Option<Vector>,
-    pub(super) lower: Option<Vector>,
-    pub(super) upper: Option<Vector>,
-    pub(super) center: Option<Vector>,
-    pub(super) radius: Option<Number>,
-    pub(super) inside: Option<bool>,
 }
 
 /// `[[spheres]]`: the keys of one and of many.

@@ -55,7 +55,7 @@ pub enum EngineKind {
     EventDriven,
 }
 
-/// Who can meet whom.
+/// What spheres can meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Encounters {
@@ -97,9 +97,16 @@ pub enum Impact {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OrientationUpdate {
-    /// As a closed form of the last change of spin, when somebody asks.
+    /// As a closed form of the last change of spin, when it is asked for.
     #[default]
     WhenAsked,
     /// `M ← R M` in each step.
     EachStep,
 }
+
+/// The most bodies that a scene may have: one hundred million.
+pub const MOST_BODIES: u64 = 100_000_000;
+
+/// The most steps that a run may have: `2⁵³`, up to which their count is exact
+/// in an `f64`.
+pub const MOST_STEPS: f64 = 9_007_199_254_740_992.0;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::fit::mean_square;
-use super::invariants::{Invariants, exact, exact_vector};
+use super::invariants::Invariants;
 use crate::bodies::Bodies;
 use crate::engine::World;
 use crate::lane::Lane;
@@ -53,8 +53,8 @@ impl<T: Real> Truth<T> {
     /// The present state of a world, in this field and this box.
     #[must_use]
     pub fn of(world: &World<T>, gravity: Vec3<T>, periodic: Option<PeriodicBox<T>>) -> Self {
-        let gravity = exact_vector(gravity);
-        let bounds = |corner: Vec3<T>| exact_vector(corner).to_array();
+        let gravity = gravity.cast::<DoubleDouble>();
+        let bounds = |corner: Vec3<T>| corner.cast::<DoubleDouble>().to_array();
         let periodic =
             periodic.map(|space| PeriodicBox::new(bounds(space.lower), bounds(space.upper)));
         let bodies = world.bodies();
@@ -70,14 +70,14 @@ impl<T: Real> Truth<T> {
         };
         let root_mean_square = |values: &[f64]| mean_square(values.iter().copied()).sqrt();
         let positions = of_each(&|index| {
-            let should = exact_vector(self.bodies.position_of(index));
-            let difference = exact_vector(bodies.position_of(index)) - should;
+            let should = self.bodies.position_of(index).cast::<DoubleDouble>();
+            let difference = bodies.position_of(index).cast::<DoubleDouble>() - should;
             let nearest = self.periodic.map_or(difference, |space| space.nearest(difference));
             nearest.length().high()
         });
         let velocities = of_each(&|index| {
-            let should = exact_vector(self.bodies.velocity_of(index));
-            (exact_vector(bodies.velocity_of(index)) - should).length().high()
+            let should = self.bodies.velocity_of(index).cast::<DoubleDouble>();
+            (bodies.velocity_of(index).cast::<DoubleDouble>() - should).length().high()
         });
         let orientations = of_each(&|index| {
             angle_between(bodies.orientation_of(index), self.bodies.orientation_of(index))
@@ -114,7 +114,7 @@ impl Deviation {
 fn angle_between<T: Real, U: Real>(is: Mat3<U>, should: Mat3<T>) -> f64 {
     let elements = is.rows().into_iter().zip(should.rows());
     let squares = elements.map(|(is, should)| {
-        let difference = exact(is) - exact(should);
+        let difference = is.cast::<DoubleDouble>() - should.cast::<DoubleDouble>();
         difference * difference
     });
     let distance = squares.fold(DoubleDouble::ZERO, |sum, square| sum + square).high().sqrt();
@@ -132,7 +132,7 @@ mod tests {
     fn angles_of_any_size() {
         let axis = Vec3::new(0.0, 0.6, -0.8);
         for angle in [1e-30, 1e-17, 1e-9, 0.5, 3.0] {
-            let spin = exact_vector(axis);
+            let spin = axis.cast::<DoubleDouble>();
             let should = turned(Mat3::IDENTITY, spin, DoubleDouble::from_f64(angle));
             assert_relative_eq!(
                 angle_between(Mat3::<f64>::IDENTITY, should),

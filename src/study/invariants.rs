@@ -6,19 +6,6 @@ use crate::lane::Lane;
 use crate::real::{DoubleDouble, Real};
 use crate::vec3::Vec3;
 
-/// A number of any precision, without rounding.
-#[must_use]
-pub fn exact<T: Real>(value: T) -> DoubleDouble {
-    let high = value.to_f64();
-    DoubleDouble::new(high, (value - T::from_f64(high)).to_f64())
-}
-
-/// A vector of any precision, without rounding.
-#[must_use]
-pub fn exact_vector<T: Real>(vector: Vec3<T>) -> Vec3<DoubleDouble> {
-    Vec3::from(vector.to_array().map(exact))
-}
-
 /// What free motion and elastic collisions conserve, and how great the terms are
 /// that it is made of.
 #[derive(Clone, Copy, Debug)]
@@ -51,11 +38,12 @@ impl Invariants {
             angular_momentum_scale: 0.0,
         };
         for index in 0..bodies.len() {
-            let (mass, inertia) = (exact(bodies.mass.of(index)), exact(bodies.inertia.of(index)));
-            let position = exact_vector(bodies.position_of(index));
-            let momentum = exact_vector(bodies.velocity_of(index)) * mass;
-            let spin = exact_vector(bodies.spin_of(index));
-            let velocity = exact_vector(bodies.velocity_of(index));
+            let mass: DoubleDouble = bodies.mass.of(index).cast();
+            let inertia: DoubleDouble = bodies.inertia.of(index).cast();
+            let position = bodies.position_of(index).cast::<DoubleDouble>();
+            let momentum = bodies.velocity_of(index).cast() * mass;
+            let spin = bodies.spin_of(index).cast::<DoubleDouble>();
+            let velocity = bodies.velocity_of(index).cast();
             let kinetic = (momentum.dot(velocity) + inertia * spin.dot(spin)) * half;
             let orbital = position.cross(momentum);
             totals.energy = totals.energy + kinetic - mass * gravity.dot(position);

@@ -32,6 +32,7 @@ pub use report::{PrecisionReport, Row};
 pub use side_by_side::{Comparison, SideBySide};
 
 use super::{Journal, Order, Point, StudyError, Subject, Watch};
+use crate::engine::Compiled;
 use crate::real::Real;
 use crate::scene::EngineKind;
 use crate::scene::SceneFile;
@@ -154,7 +155,7 @@ impl PrecisionStudy {
     }
 
     /// One of the further runs, from a start of its own.
-    fn run<T: Real>(&self, number: u32) -> Result<Outcome, StudyError> {
+    fn run<T: Compiled>(&self, number: u32) -> Result<Outcome, StudyError> {
         Ok(Outcome::Run(Track::of::<T>(&self.file, self.duration, self.samples, number)))
     }
 

@@ -4,13 +4,29 @@ mod part;
 
 use part::Part;
 
+use super::entry::{INSIDE, Key, Meaning, ShapeEntry};
 use super::free_flight::FreeFlight;
-use super::{Clearance, Plane};
+use super::mistake::{Mistake, corners};
+use super::solid::{Obstacle, Solid};
+use super::{Clearance, Feature, Plane};
+use crate::contact::greatest_component;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// An axis-aligned box fixed in space.
+///
+/// In a scene file: `shape = "box"` with `lower`, `upper` and `inside`;
+/// `inside = true` makes a container.
+///
+/// ```
+/// use carom::surroundings::{Cuboid, Feature};
+/// use carom::vec3::Vec3;
+///
+/// let cube = Feature::from(Cuboid::solid([0.0; 3], [1.0; 3]));
+/// let clearance = cube.clearance(Vec3::new(4.0, 5.0, 0.5), 1.0);
+/// assert_eq!((clearance.gap, clearance.arm.y), (4.0, 0.8));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid<T> {
     /// The corner with the least coordinates, length.
@@ -22,19 +38,38 @@ pub struct Cuboid<T> {
 }
 
 impl<T: Real> Cuboid<T> {
-    /// A solid box that bodies bounce off.
+    /// A solid box that bodies bounce off, from its lower to its upper corner,
+    /// length.
+    ///
+    /// ```
+    /// use carom::surroundings::Cuboid;
+    /// assert!(!Cuboid::solid([0.0; 3], [1.0, 2.0, 3.0]).inside);
+    /// ```
     #[must_use]
     pub fn solid(lower: [T; 3], upper: [T; 3]) -> Self {
         Self { lower: lower.into(), upper: upper.into(), inside: false }
     }
 
-    /// A container that bodies are inside of.
+    /// A container that bodies are inside of, from its lower to its upper corner,
+    /// length.
+    ///
+    /// ```
+    /// use carom::surroundings::Cuboid;
+    /// assert!(Cuboid::container([0.0; 3], [1.0, 2.0, 3.0]).inside);
+    /// ```
     #[must_use]
     pub fn container(lower: [T; 3], upper: [T; 3]) -> Self {
         Self { lower: lower.into(), upper: upper.into(), inside: true }
     }
 
     /// The six faces as planes that look into the box.
+    ///
+    /// ```
+    /// use carom::surroundings::Cuboid;
+    /// let [left, right, ..] = Cuboid::container([0.0; 3], [1.0, 2.0, 3.0]).faces();
+    /// assert_eq!((left.normal.x, right.normal.x), (1.0, -1.0));
+    /// assert_eq!((left.point.x, right.point.x), (0.0, 1.0));
+    /// ```
     #[must_use]
     pub fn faces(&self) -> [Plane<T>; 6] {
         let [one, zero] = [T::ONE, T::ZERO];
@@ -49,11 +84,23 @@ impl<T: Real> Cuboid<T> {
         ]
     }
 
-    /// Where spheres with these centres and radii stand to the solid box: to
-    /// the nearest point of a face, an edge or a corner. A centre inside the
+    /// Whether a sphere has just bounced off, and is still there.
+    fn is_left(&self, flight: &FreeFlight<T>) -> bool {
+        let gap = self.clearance(flight.center, flight.radius).gap;
+        flight.is_leaving && gap <= self.slack(flight)
+    }
+
+    /// As [`FreeFlight::slack`], for all of the box.
+    fn slack(&self, flight: &FreeFlight<T>) -> T {
+        flight.slack(self.lower).greater(flight.slack(self.upper))
+    }
+}
+
+impl<T: Real> Obstacle<T> for Cuboid<T> {
+    /// To the nearest point of a face, an edge or a corner. A centre inside the
     /// solid is pushed out through the nearest face.
     #[inline(always)]
-    pub fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+    fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let lower = Vec3::<L>::splat(self.lower);
         let upper = Vec3::<L>::splat(self.upper);
         let beyond = |c: L, low: L, high: L| c - low.greater(c).lesser(high);
@@ -94,9 +141,8 @@ impl<T: Real> Cuboid<T> {
         }
     }
 
-    /// When a sphere collides with the solid box: the earliest contact with one
-    /// of its faces, edges and corners.
-    pub(super) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+    /// The earliest contact with a face, an edge or a corner.
+    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
         if flight.acceleration.is_none() && self.is_left(flight) {
             // A straight path never comes back to what is convex.
             return None;
@@ -113,14 +159,44 @@ impl<T: Real> Cuboid<T> {
         Part::all(self, flight).filter_map(|part| part.contact_time()).reduce(T::lesser)
     }
 
-    /// Whether a sphere has just bounced off, and is still there.
-    fn is_left(&self, flight: &FreeFlight<T>) -> bool {
-        let gap = self.clearance(flight.center, flight.radius).gap;
-        flight.is_leaving && gap <= self.slack(flight)
+    fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        (!self.inside).then_some([self.lower, self.upper])
     }
 
-    /// As [`FreeFlight::slack`], for all of the box.
-    fn slack(&self, flight: &FreeFlight<T>) -> T {
-        flight.slack(self.lower).greater(flight.slack(self.upper))
+    fn farthest(&self) -> f64 {
+        let [lower, upper] = [self.lower, self.upper].map(Vec3::cast::<f64>);
+        greatest_component(lower).max(greatest_component(upper))
+    }
+}
+
+const LOWER: Key = Key::new("lower", Meaning::Point);
+const UPPER: Key = Key::new("upper", Meaning::Point);
+
+impl<T: Real> Solid<T> for Cuboid<T> {
+    type In<B: Real> = Cuboid<B>;
+
+    const NAME: &'static str = "box";
+    const KEYS: &'static [Key] = &[LOWER, UPPER, INSIDE];
+
+    fn read(entry: &ShapeEntry) -> Result<Cuboid<f64>, Mistake> {
+        let (lower, upper) = (entry.vector(LOWER)?.into(), entry.vector(UPPER)?.into());
+        Ok(Cuboid { lower, upper, inside: entry.flag(INSIDE) })
+    }
+
+    fn check(&self) -> Result<(), Mistake> {
+        corners(self.lower, self.upper)
+    }
+
+    fn cast<B: Real>(&self) -> Cuboid<B> {
+        Cuboid { lower: self.lower.cast(), upper: self.upper.cast(), inside: self.inside }
+    }
+
+    /// A container is six faces.
+    fn features(&self) -> Vec<Feature<T>> {
+        if self.inside { self.faces().map(Feature::Plane).into() } else { vec![(*self).into()] }
+    }
+
+    fn interior(&self) -> Option<[Vec3<T>; 2]> {
+        self.inside.then_some([self.lower, self.upper])
     }
 }

@@ -1,13 +1,28 @@
 //! Fixed sphere: a solid ball, or the hollow in one.
 
 use super::Clearance;
+use super::entry::{INSIDE, Key, Meaning, ShapeEntry};
 use super::free_flight::FreeFlight;
-use crate::contact::{Approach, Start};
+use super::mistake::{Mistake, point, positive};
+use super::solid::{Obstacle, Solid};
+use crate::contact::{Approach, Start, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// A sphere fixed in space.
+///
+/// In a scene file: `shape = "sphere"` with `center`, `radius` and `inside`;
+/// `inside = true` makes a container.
+///
+/// ```
+/// use carom::surroundings::{Feature, FixedSphere};
+/// use carom::vec3::Vec3;
+///
+/// let hollow = FixedSphere::container([0.0; 3], 5.0);
+/// let clearance = Feature::from(hollow).clearance(Vec3::new(3.0, 0.0, 0.0), 1.0);
+/// assert_eq!((clearance.gap, clearance.arm.x), (1.0, -0.75));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FixedSphere<T> {
     /// Its centre, length.
@@ -19,24 +34,41 @@ pub struct FixedSphere<T> {
 }
 
 impl<T: Real> FixedSphere<T> {
-    /// A solid sphere that bodies bounce off.
+    /// A solid sphere that bodies bounce off; `center` and `radius` in length.
+    ///
+    /// ```
+    /// use carom::surroundings::FixedSphere;
+    /// assert!(!FixedSphere::solid([0.0, 0.0, 1.0], 0.5).inside);
+    /// ```
     #[must_use]
     pub fn solid(center: [T; 3], radius: T) -> Self {
         Self { center: center.into(), radius, inside: false }
     }
 
-    /// A spherical container that bodies are inside of.
+    /// A spherical container that bodies are inside of; `center` and `radius` in
+    /// length.
+    ///
+    /// ```
+    /// use carom::surroundings::FixedSphere;
+    /// assert!(FixedSphere::container([0.0, 0.0, 1.0], 0.5).inside);
+    /// ```
     #[must_use]
     pub fn container(center: [T; 3], radius: T) -> Self {
         Self { center: center.into(), radius, inside: true }
     }
 
-    /// Where spheres with these centres and radii stand to the fixed one.
-    ///
+    /// The cube about its centre whose faces are `reach` away.
+    fn cube(&self, reach: T) -> [Vec3<T>; 2] {
+        let reach = Vec3::new(reach, reach, reach);
+        [self.center - reach, self.center + reach]
+    }
+}
+
+impl<T: Real> Obstacle<T> for FixedSphere<T> {
     /// At the common centre, where no normal is defined, the arm is zero and
     /// no impulse follows.
     #[inline(always)]
-    pub fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+    fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let offset = center - Vec3::splat(self.center);
         let distance = offset.length();
         let fixed_radius = L::splat(self.radius);
@@ -51,9 +83,8 @@ impl<T: Real> FixedSphere<T> {
         }
     }
 
-    /// When a sphere collides with the fixed one: for centres at the sum of the
-    /// radii, inside at their difference.
-    pub(super) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+    /// For centres at the sum of the radii, inside at their difference.
+    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
         let radius = if self.inside { -flight.radius } else { flight.radius };
         let approach = Approach {
             offset: flight.center - self.center,
@@ -65,5 +96,48 @@ impl<T: Real> FixedSphere<T> {
         let slack = approach.squared(flight.slack(self.center));
         let start = Start::at(approach.gap_squared(), slack, flight.is_leaving);
         approach.contact_time(start, |_| true)
+    }
+
+    fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        (!self.inside).then(|| self.cube(self.radius))
+    }
+
+    fn farthest(&self) -> f64 {
+        greatest_component(self.center.cast::<f64>()) + self.radius.to_f64()
+    }
+}
+
+const CENTER: Key = Key::new("center", Meaning::Point);
+const RADIUS: Key = Key::new("radius", Meaning::Length);
+
+impl<T: Real> Solid<T> for FixedSphere<T> {
+    type In<B: Real> = FixedSphere<B>;
+
+    const NAME: &'static str = "sphere";
+    const KEYS: &'static [Key] = &[CENTER, RADIUS, INSIDE];
+
+    fn read(entry: &ShapeEntry) -> Result<FixedSphere<f64>, Mistake> {
+        Ok(FixedSphere {
+            center: entry.vector(CENTER)?.into(),
+            radius: entry.number(RADIUS, "a sphere has a radius greater than 0")?,
+            inside: entry.flag(INSIDE),
+        })
+    }
+
+    fn check(&self) -> Result<(), Mistake> {
+        point(CENTER.name, self.center)?;
+        positive::<T>(RADIUS.name, self.radius.to_f64(), "a radius")
+    }
+
+    fn cast<B: Real>(&self) -> FixedSphere<B> {
+        FixedSphere { center: self.center.cast(), radius: self.radius.cast(), inside: self.inside }
+    }
+
+    fn interior(&self) -> Option<[Vec3<T>; 2]> {
+        self.inside.then(|| self.cube(self.radius))
+    }
+
+    fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
+        self.inside.then(|| self.cube(self.radius / T::whole(3).sqrt()))
     }
 }

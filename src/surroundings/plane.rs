@@ -1,13 +1,27 @@
 //! Plane: a half space of solid.
 
 use super::Clearance;
+use super::entry::{Key, Meaning, ShapeEntry};
 use super::free_flight::FreeFlight;
-use crate::contact::{Start, fall_of_height};
+use super::mistake::{Mistake, point};
+use super::solid::{Obstacle, Solid};
+use crate::contact::{Start, fall_of_height, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// The solid half space behind a plane.
+///
+/// In a scene file: `shape = "plane"` with a `point` and a `normal` of any
+/// length, out of the solid.
+///
+/// ```
+/// use carom::surroundings::{Feature, Plane};
+/// use carom::vec3::Vec3;
+///
+/// let slope = Plane::new([0.0; 3], [0.0, 3.0, 4.0]);
+/// assert_eq!(Feature::from(slope).clearance(Vec3::new(9.0, 0.0, 5.0), 1.0).gap, 3.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane<T> {
     /// A point of the plane, length.
@@ -34,22 +48,58 @@ impl<T: Real> Plane<T> {
             normal: Vec3::new(normal.x / length, normal.y / length, normal.z / length),
         }
     }
+}
 
-    /// Where spheres with these centres and radii stand to the plane.
+impl<T: Real> Obstacle<T> for Plane<T> {
     #[inline(always)]
-    pub fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+    fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let normal = Vec3::splat(self.normal);
         let height = (center - Vec3::splat(self.point)).dot(normal);
         Clearance { gap: height - radius, arm: normal * radius }
     }
 
-    /// When a sphere collides with the plane: the fall of its height, a
-    /// quadratic in time.
-    pub(super) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+    /// The fall of its height, a quadratic in time.
+    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
         let height = self.clearance(flight.center, flight.radius).gap;
         let start = Start::at(height, flight.slack(self.point), flight.is_leaving);
         let pull =
             flight.acceleration.map_or(T::ZERO, |acceleration| acceleration.dot(self.normal));
         fall_of_height(height, flight.velocity.dot(self.normal), pull, start)
+    }
+
+    fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        None
+    }
+
+    fn farthest(&self) -> f64 {
+        greatest_component(self.point.cast())
+    }
+}
+
+const POINT: Key = Key::new("point", Meaning::Point);
+const NORMAL: Key = Key::new("normal", Meaning::Direction);
+
+impl<T: Real> Solid<T> for Plane<T> {
+    type In<B: Real> = Plane<B>;
+
+    const NAME: &'static str = "plane";
+    const KEYS: &'static [Key] = &[POINT, NORMAL];
+
+    fn read(entry: &ShapeEntry) -> Result<Plane<f64>, Mistake> {
+        Ok(Plane::new(entry.vector(POINT)?, entry.vector(NORMAL)?))
+    }
+
+    fn check(&self) -> Result<(), Mistake> {
+        point(POINT.name, self.point)?;
+        let length = self.normal.length().to_f64();
+        if (length - 1.0).abs() < 1e-3 {
+            return Ok(());
+        }
+        let wanted = "a normal must be finite and have a length greater than 0";
+        Err(Mistake::described(NORMAL.name, "no direction", wanted))
+    }
+
+    fn cast<B: Real>(&self) -> Plane<B> {
+        Plane { point: self.point.cast(), normal: self.normal.cast() }
     }
 }

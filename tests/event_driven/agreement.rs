@@ -2,7 +2,7 @@
 //! Not close to it: the same events, every bit of them.
 
 use carom::contact::Surface;
-use carom::engine::{EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, EventDriven, Execution, Lanes};
 use carom::real::Real;
 use carom::scene::{Encounters, Scene, Sphere, Spheres};
 use carom::space::PeriodicBox;
@@ -78,18 +78,12 @@ fn surroundings(
 
 /// A shape in the scene's precision.
 fn rounded<T: Real>(shape: Shape<f64>) -> Shape<T> {
-    let vector = |vector: Vec3<f64>| t3(vector.to_array()).into();
     match shape {
+        // To the length that the normal has in this precision.
         Shape::Plane(Plane { point, normal }) => {
             Plane::new(t3(point.to_array()), t3(normal.to_array())).into()
         }
-        Shape::Cuboid(Cuboid { lower, upper, inside }) => {
-            Cuboid { lower: vector(lower), upper: vector(upper), inside }.into()
-        }
-        Shape::FixedSphere(FixedSphere { center, radius, inside }) => {
-            let (center, radius) = (vector(center), T::from_f64(radius));
-            FixedSphere { center, radius, inside }.into()
-        }
+        shape => shape.cast(),
     }
 }
 
@@ -198,12 +192,12 @@ fn symmetric<T: Real>(seed: u64) -> Scene<T> {
     builder.build().unwrap()
 }
 
-fn agree<T: Real>(kind: Kind, seed: u64, most: u64) -> usize {
+fn agree<T: Compiled>(kind: Kind, seed: u64, most: u64) -> usize {
     same_events(&scene::<T>(kind, seed), seed, most)
 }
 
 /// Runs both for a number of events, and compares them.
-fn same_events<T: Real>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
+fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let lanes = LANES[seed as usize % LANES.len()];
     let world =
         || EventDriven::with_execution(scene.clone(), Execution { lanes, threads: 1 }).unwrap();
@@ -233,7 +227,7 @@ fn same_events<T: Real>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     found.len()
 }
 
-fn scenes_agree<T: Real>(kind: Kind) {
+fn scenes_agree<T: Compiled>(kind: Kind) {
     let found: usize = (0..SCENES).map(|seed| agree::<T>(kind, seed, 100)).sum();
     println!("{kind:?} {}: {found} equal events in {SCENES} scenes", T::NAME);
     assert!(found as u64 > SCENES * 10, "{kind:?}: {found} events are too few to compare");
@@ -242,7 +236,7 @@ fn scenes_agree<T: Real>(kind: Kind) {
 /// Crowds, with many cells and spans of the calendar.
 #[test]
 fn in_a_crowd() {
-    fn crowds<T: Real>() {
+    fn crowds<T: Compiled>() {
         let crowd = Spheres::random(250).temperature(1.0).spin_temperature(1.0).seed(8);
         let scenes = [
             builder::<T>()

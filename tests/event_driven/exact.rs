@@ -1,7 +1,7 @@
 //! Exact cases: superballs, bouncing balls, parabolas, a ball in a sphere.
 
 use carom::contact::Surface;
-use carom::real::Real;
+use carom::engine::Compiled;
 use carom::scene::Sphere;
 use carom::surroundings::{FixedSphere, Plane};
 
@@ -12,7 +12,7 @@ use crate::{builder, events, floor, t3, world};
 /// velocity and spin after each bounce (Garwin 1969: the third comes back).
 #[test]
 fn superball() {
-    fn errors<T: Real>() -> f64 {
+    fn errors<T: Compiled>() -> f64 {
         let scene = builder::<T>()
             .surface(Surface::Rough)
             .surroundings(floor())
@@ -38,7 +38,7 @@ fn superball() {
 /// the bounces from rest, in units of gT².
 #[test]
 fn rough_ball_in_a_channel_does_not_fall() {
-    fn errors<T: Real>() -> f64 {
+    fn errors<T: Compiled>() -> f64 {
         let scene = builder::<T>()
             .surface(Surface::Rough)
             .gravity(t3([0.0, 0.0, -1.0]))
@@ -77,7 +77,7 @@ fn rough_ball_in_a_channel_does_not_fall() {
 /// `I w − (r/R) m c × v` of a rough ball inside a fixed sphere, `R = Rc − r`.
 #[test]
 fn rough_ball_in_a_sphere_keeps_its_generalised_spin() {
-    fn error<T: Real>() -> f64 {
+    fn error<T: Compiled>() -> f64 {
         let (radius, fixed) = (0.3, 2.0);
         let ball = Sphere::new([0.1, 0.2, -0.3]).radius(radius);
         let scene = builder::<T>()
@@ -109,7 +109,7 @@ fn rough_ball_in_a_sphere_keeps_its_generalised_spin() {
 /// 2√2, and as high as at the start after 1,000 bounces.
 #[test]
 fn bouncing_ball() {
-    fn errors<T: Real>() -> [f64; 2] {
+    fn errors<T: Compiled>() -> [f64; 2] {
         let scene = builder::<T>()
             .gravity(t3([0.0, 0.0, -1.0]))
             .surroundings(floor())
@@ -138,7 +138,7 @@ fn bouncing_ball() {
 /// count time anew: it is not taken for one that has just bounced off.
 #[test]
 fn bounces_near_whole_times() {
-    fn bounce<T: Real>() {
+    fn bounce<T: Compiled>() {
         for k in -40..=40 {
             // Down after 16, 48, 80 … and a little.
             let height = 128.5 + f64::from(128 * k) * T::EPSILON.to_f64();
@@ -159,7 +159,7 @@ fn bounces_near_whole_times() {
 /// Parabolas against a fixed sphere, together of radius 1, in rationals.
 #[test]
 fn parabolas_meet_a_sphere_at_the_exact_time() {
-    fn errors<T: Real>() -> f64 {
+    fn errors<T: Compiled>() -> f64 {
         let cases = [
             ([0.0, 2.8, 0.0], [0.0; 3], 0.6),
             ([1.6, 2.05, -0.5], [-2.0, 0.0, 1.0], 0.5),

@@ -1,9 +1,8 @@
 //! To stop and to look in between changes nothing.
 
 use carom::contact::Surface;
-use carom::engine::EngineError;
+use carom::engine::{Compiled, EngineError};
 use carom::observe::state_hash;
-use carom::real::Real;
 use carom::scene::{Scene, Sphere, Spheres};
 use carom::space::PeriodicBox;
 use carom::surroundings::Cuboid;
@@ -11,7 +10,7 @@ use carom::surroundings::Cuboid;
 use crate::{builder, events, t3, world};
 
 /// A gas in a periodic box, and one of many sizes that falls.
-fn scenes<T: Real>() -> [Scene<T>; 2] {
+fn scenes<T: Compiled>() -> [Scene<T>; 2] {
     let gas = Spheres::random(100).temperature(1.0).spin_temperature(1.0).seed(6);
     let builder = || builder::<T>().surface(Surface::Rough);
     let periodic = builder()
@@ -27,7 +26,7 @@ fn scenes<T: Real>() -> [Scene<T>; 2] {
 /// Two advances are one, if their sum is exact, and looking changes no bit.
 #[test]
 fn parts_make_the_whole() {
-    fn parts<T: Real>(scene: &Scene<T>) {
+    fn parts<T: Compiled>(scene: &Scene<T>) {
         let mut whole = world(scene.clone());
         let all = events(&mut whole, 6.0);
         let hash = state_hash(&whole.bodies());
@@ -63,7 +62,7 @@ fn parts_make_the_whole() {
 /// One event after another, and they are those of one run.
 #[test]
 fn event_by_event() {
-    fn one_by_one<T: Real>(scene: &Scene<T>) {
+    fn one_by_one<T: Compiled>(scene: &Scene<T>) {
         let mut whole = world(scene.clone());
         let all = events(&mut whole, 4.0);
         let mut world = world(scene.clone());

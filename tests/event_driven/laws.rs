@@ -2,6 +2,7 @@
 
 use carom::bodies::Bodies;
 use carom::contact::Surface;
+use carom::engine::Compiled;
 use carom::observe::{AngularMomentum, Energy, Momentum, total_mass};
 use carom::real::Real;
 use carom::scene::{SceneBuilder, Spheres};
@@ -34,7 +35,7 @@ fn crowds<T: Real>(surface: Surface, is_mixed: bool) -> [SceneBuilder<T>; 3] {
 }
 
 /// The greatest change of the totals, in ε of what they are sums of.
-fn drift<T: Real>(scene: SceneBuilder<T>, collisions: u64, longest: f64) -> [f64; 3] {
+fn drift<T: Compiled>(scene: SceneBuilder<T>, collisions: u64, longest: f64) -> [f64; 3] {
     let scene = scene.build().unwrap();
     let is_periodic = scene.periodic.is_some();
     let is_walled = !scene.surroundings.is_empty();
@@ -67,7 +68,7 @@ fn drift<T: Real>(scene: SceneBuilder<T>, collisions: u64, longest: f64) -> [f64
 /// Energy, momentum and angular momentum stay, to the rounding of one sum.
 #[test]
 fn totals_are_kept() {
-    fn totals<T: Real>() {
+    fn totals<T: Compiled>() {
         for surface in SURFACES {
             for is_mixed in [false, true] {
                 for (scene, kind) in
@@ -92,7 +93,7 @@ fn totals_are_kept() {
 /// A gas keeps its energy over many collisions.
 #[test]
 fn energy_over_a_million_collisions() {
-    fn drift_of<T: Real>(surface: Surface) -> f64 {
+    fn drift_of<T: Compiled>(surface: Surface) -> f64 {
         let gas = Spheres::fcc(1_000).radius(0.5).number_density(0.5).temperature(1.0);
         drift(builder::<T>().surface(surface).periodic_cube().spheres(gas), 1_000_000, 1e3)[0]
     }
@@ -104,7 +105,7 @@ fn energy_over_a_million_collisions() {
 }
 
 /// Bodies with their motion reversed.
-fn reversed<T: Real>(mut bodies: Bodies<T>) -> Bodies<T> {
+fn reversed<T: Compiled>(mut bodies: Bodies<T>) -> Bodies<T> {
     for column in bodies.velocity.iter_mut().chain(&mut bodies.spin) {
         column.iter_mut().for_each(|value| *value = -*value);
     }
@@ -115,7 +116,7 @@ fn reversed<T: Real>(mut bodies: Bodies<T>) -> Bodies<T> {
 /// rounding, which every collision enlarges, lets it.
 #[test]
 fn time_can_be_turned_back() {
-    fn way_off<T: Real>(scene: SceneBuilder<T>, time: f64) -> f64 {
+    fn way_off<T: Compiled>(scene: SceneBuilder<T>, time: f64) -> f64 {
         let scene = scene.build().unwrap();
         let mut world = world(scene.clone());
         world.advance(time).unwrap();
@@ -156,7 +157,7 @@ fn time_can_be_turned_back() {
 /// and what is fixed.
 #[test]
 fn nothing_overlaps() {
-    fn deepest<T: Real>(scene: SceneBuilder<T>) -> f64 {
+    fn deepest<T: Compiled>(scene: SceneBuilder<T>) -> f64 {
         let scene = scene.build().unwrap();
         let features: Vec<_> =
             scene.surroundings.iter().flat_map(|shape| shape.features()).collect();

@@ -1,5 +1,6 @@
 //! Balls on a line: Galperin's billiard, cradles, rods.
 
+use carom::engine::Compiled;
 use carom::real::Real;
 use carom::scene::{Scene, Sphere};
 use carom::surroundings::Plane;
@@ -11,7 +12,7 @@ use crate::{builder, t3, world};
 
 /// Collisions in all of a ball at rest between a wall and a ball `ratio` times
 /// as heavy that comes in.
-fn collisions<T: Real>(ratio: f64) -> u64 {
+fn collisions<T: Compiled>(ratio: f64) -> u64 {
     let ball = |x: f64| Sphere::new([x, 0.0, 0.0]).radius(0.0625);
     let scene = builder::<T>()
         .surroundings(Plane::new(t3([0.0; 3]), t3([1.0, 0.0, 0.0])))
@@ -57,7 +58,7 @@ fn galperin_with_other_masses() {
 /// Cradles, touching or not, pairwise in order.
 #[test]
 fn cradles() {
-    fn cradle<T: Real>(cradle: Cradle, gap: f64) {
+    fn cradle<T: Compiled>(cradle: Cradle, gap: f64) {
         let (masses, before, after, collisions) = cradle;
         let mut builder = builder::<T>();
         for (k, (mass, velocity)) in masses.iter().zip(before).enumerate() {
@@ -156,7 +157,7 @@ impl Rods {
 /// closed form.
 #[test]
 fn rods() {
-    fn error<T: Real>(count: usize, time: f64) -> f64 {
+    fn error<T: Compiled>(count: usize, time: f64) -> f64 {
         let rods = Rods::new::<T>(count);
         let mut world = world(rods.scene::<T>());
         world.advance(time).unwrap();

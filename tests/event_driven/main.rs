@@ -17,7 +17,7 @@ mod units;
 #[path = "../common/mod.rs"]
 mod common;
 
-use carom::engine::{Event, EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, Event, EventDriven, Execution, Lanes};
 use carom::real::Real;
 use carom::scene::EngineKind;
 use carom::scene::{Scene, SceneBuilder};
@@ -35,7 +35,7 @@ pub fn builder<T: Real>() -> SceneBuilder<T> {
 }
 
 /// A scene at its start.
-pub fn world<T: Real>(scene: Scene<T>) -> EventDriven<T> {
+pub fn world<T: Compiled>(scene: Scene<T>) -> EventDriven<T> {
     EventDriven::with_execution(scene, FAST).unwrap()
 }
 

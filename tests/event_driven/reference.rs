@@ -4,7 +4,7 @@
 
 use carom::bodies::PerBody;
 use carom::compensated::CompensatedSum;
-use carom::contact::{Impulse, Party, Surface, collide_spread};
+use carom::contact::{Impulse, Party, Rough, Smooth, Surface, collide_spread};
 use carom::engine::{Event, Partner};
 use carom::motion::flight::Wrap;
 use carom::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
@@ -219,8 +219,8 @@ impl<'a, T: Real> Reference<'a, T> {
 
     fn collide(&self, offset: Vec3<T>, a: &mut Party<T>, b: &mut Party<T>) -> Impulse<T> {
         match self.scene.surface {
-            Surface::Smooth => collide_spread::<T, false>(offset, a, b),
-            Surface::Rough => collide_spread::<T, true>(offset, a, b),
+            Surface::Smooth => collide_spread(Smooth, offset, a, b),
+            Surface::Rough => collide_spread(Rough, offset, a, b),
         }
     }
 

@@ -1,9 +1,8 @@
 //! The same events, bit by bit, in every lane width.
 
 use carom::contact::Surface;
-use carom::engine::{EngineError, Event, EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, EngineError, Event, EventDriven, Execution, Lanes};
 use carom::observe::{StateHash, state_hash};
-use carom::real::Real;
 use carom::scene::{Scene, SceneFile, Spheres, builtin_scenes};
 use carom::space::PeriodicBox;
 use carom::surroundings::{Cuboid, FixedSphere};
@@ -13,7 +12,7 @@ use crate::{FAST, builder, t3, world};
 const OTHERS: [Lanes; 4] = [Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Sixteen];
 
 /// All events up to a time and the state there; whether time has stood still.
-fn story<T: Real>(scene: Scene<T>, lanes: Lanes, end: f64) -> (Vec<Event<T>>, StateHash, bool) {
+fn story<T: Compiled>(scene: Scene<T>, lanes: Lanes, end: f64) -> (Vec<Event<T>>, StateHash, bool) {
     let execution = Execution { lanes, threads: 1 };
     let mut world = EventDriven::with_execution(scene, execution).unwrap();
     let mut events = Vec::new();
@@ -24,7 +23,7 @@ fn story<T: Real>(scene: Scene<T>, lanes: Lanes, end: f64) -> (Vec<Event<T>>, St
 }
 
 /// Compares the first so many events of a scene.
-fn paths_agree<T: Real>(scene: &Scene<T>, most: u64) -> usize {
+fn paths_agree<T: Compiled>(scene: &Scene<T>, most: u64) -> usize {
     let mut first = EventDriven::with_execution(scene.clone(), FAST).unwrap();
     // One that stalls does so on all paths.
     let _ = first.advance_until(most, 20.0);
@@ -44,7 +43,7 @@ fn paths_agree<T: Real>(scene: &Scene<T>, most: u64) -> usize {
 
 #[test]
 fn every_builtin_scene() {
-    fn builtin<T: Real>() {
+    fn builtin<T: Compiled>() {
         for builtin in builtin_scenes() {
             let scene = SceneFile::builtin(builtin.name).unwrap().build::<T>().unwrap();
             let events = paths_agree(&scene, 10_000);
@@ -57,7 +56,7 @@ fn every_builtin_scene() {
 
 #[test]
 fn gases() {
-    fn gases<T: Real>() {
+    fn gases<T: Compiled>() {
         let builder = |name: &str, surface| builder::<T>().name(name).surface(surface);
         let gravity = t3::<T>([0.0, 0.5, -4.0]);
         let mixed = Spheres::random(400)

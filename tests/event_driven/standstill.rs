@@ -3,8 +3,7 @@
 use std::time::{Duration, Instant};
 
 use carom::contact::Surface;
-use carom::engine::EngineError;
-use carom::real::Real;
+use carom::engine::{Compiled, EngineError};
 use carom::scene::{SceneBuilder, Sphere};
 use carom::surroundings::{Cuboid, Plane};
 
@@ -14,7 +13,7 @@ use crate::{builder, floor, t3, world};
 const QUICK: Duration = Duration::from_secs(10);
 
 /// Runs a scene in which time comes to stand still, and returns when it did.
-fn stall<T: Real>(scene: SceneBuilder<T>, body: u32) -> f64 {
+fn stall<T: Compiled>(scene: SceneBuilder<T>, body: u32) -> f64 {
     let mut world = world(scene.build().unwrap());
     let start = Instant::now();
     let error = world.advance(100.0).unwrap_err();
@@ -32,7 +31,7 @@ fn stall<T: Real>(scene: SceneBuilder<T>, body: u32) -> f64 {
 
 #[test]
 fn a_ball_at_rest_on_a_floor() {
-    fn at_rest<T: Real>() {
+    fn at_rest<T: Compiled>() {
         for surface in [Surface::Smooth, Surface::Rough] {
             let scene = builder::<T>()
                 .surface(surface)
@@ -53,7 +52,7 @@ fn a_ball_at_rest_on_a_floor() {
 /// A ball that moves between two walls which it touches both.
 #[test]
 fn a_ball_between_walls_as_wide_as_itself() {
-    fn between<T: Real>() {
+    fn between<T: Compiled>() {
         let walls = Cuboid::container(t3([0.0; 3]), t3([1.0, 4.0, 4.0]));
         let ball = Sphere::new([0.5, 2.0, 2.0]).radius(0.5).velocity([1.0, 0.25, 0.0]);
         let time = stall(builder::<T>().surroundings(walls).sphere(ball), 0);
@@ -67,7 +66,7 @@ fn a_ball_between_walls_as_wide_as_itself() {
 /// or stalls.
 #[test]
 fn a_ball_in_a_wedge() {
-    fn in_a_wedge<T: Real>() {
+    fn in_a_wedge<T: Compiled>() {
         let mut stalled = 0;
         let start = Instant::now();
         for surface in [Surface::Smooth, Surface::Rough] {
@@ -102,7 +101,7 @@ fn a_ball_in_a_wedge() {
 /// A ball rests on another one, and both in a corner.
 #[test]
 fn a_pile() {
-    fn pile<T: Real>() {
+    fn pile<T: Compiled>() {
         let scene = builder::<T>()
             .gravity(t3([0.0, 0.0, -1.0]))
             .surroundings(Cuboid::container(t3([0.0; 3]), t3([4.0; 3])))

@@ -2,7 +2,7 @@
 //! (`tests/data/trajectories.json`): a rough gas, and smooth spheres that fall.
 
 use carom::contact::Surface;
-use carom::engine::{Event, Partner};
+use carom::engine::{Compiled, Event, Partner};
 use carom::real::Real;
 use carom::scene::{Scene, Sphere};
 use carom::surroundings::Cuboid;
@@ -64,7 +64,7 @@ fn named<T: Real>(event: &Event<T>) -> (&'static str, u32, u32, u32) {
 }
 
 /// How many events come as they should.
-fn events_in_order<T: Real>(known: &Known) -> usize {
+fn events_in_order<T: Compiled>(known: &Known) -> usize {
     let end = known.events.last().unwrap().4;
     let found = events(&mut world(scene::<T>(known)), end * 1.01);
     let is_right = |(found, (kind, a, b, side, _)): (&Event<T>, &(String, u32, u32, u32, f64))| {
@@ -75,7 +75,7 @@ fn events_in_order<T: Real>(known: &Known) -> usize {
 
 /// The greatest errors of any component of the centres, velocities and spins,
 /// and of the time, after some numbers of events.
-fn errors<T: Real>(known: &Known) -> Vec<(u64, [f64; 4])> {
+fn errors<T: Compiled>(known: &Known) -> Vec<(u64, [f64; 4])> {
     let mut world = world(scene::<T>(known));
     let mut errors = Vec::new();
     for (&count, state) in &known.states {

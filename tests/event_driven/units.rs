@@ -2,8 +2,7 @@
 //! same scene, bit by bit.
 
 use carom::contact::Surface;
-use carom::engine::Partner;
-use carom::real::Real;
+use carom::engine::{Compiled, Partner};
 use carom::scene::{Scene, Sphere};
 use carom::space::PeriodicBox;
 use carom::surroundings::{Cuboid, FixedSphere};
@@ -11,7 +10,7 @@ use carom::surroundings::{Cuboid, FixedSphere};
 use crate::{builder, events, t3, world};
 
 /// Twenty spheres that fall among solids, or fly in a periodic box.
-fn scene<T: Real>(is_periodic: bool, length: f64, time: f64, mass: f64) -> Scene<T> {
+fn scene<T: Compiled>(is_periodic: bool, length: f64, time: f64, mass: f64) -> Scene<T> {
     let lengths = |vector: [f64; 3]| t3::<T>(vector.map(|x| x * length));
     let mut builder = builder::<T>().surface(Surface::Rough);
     if is_periodic {
@@ -37,7 +36,7 @@ fn scene<T: Real>(is_periodic: bool, length: f64, time: f64, mass: f64) -> Scene
 
 #[test]
 fn units_change_no_bit() {
-    fn no_bit<T: Real>(exponents: &[[i32; 3]]) {
+    fn no_bit<T: Compiled>(exponents: &[[i32; 3]]) {
         for is_periodic in [false, true] {
             let expected = events(&mut world(scene::<T>(is_periodic, 1.0, 1.0, 1.0)), 16.0);
             assert!(expected.len() > 50, "{} events", expected.len());

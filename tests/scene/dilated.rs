@@ -15,7 +15,7 @@ fn volume(scene: &Scene<f64>) -> f64 {
     match scene.surroundings[0] {
         Shape::Cuboid(cuboid) => (cuboid.upper - cuboid.lower).to_array().iter().product(),
         Shape::FixedSphere(sphere) => sphere.radius.powi(3),
-        Shape::Plane(_) => panic!("a plane has no volume"),
+        shape => panic!("{shape:?} has no volume"),
     }
 }
 

@@ -1,9 +1,9 @@
 //! Exact cases: cradles, bouncing balls, superballs, pair collisions.
 
 use carom::contact::Surface;
+use carom::engine::Compiled;
 use carom::motion::Integrator;
 use carom::observe::Energy;
-use carom::real::Real;
 use carom::scene::Impact;
 use carom::scene::{Scene, SceneBuilder, Sphere};
 use carom::surroundings::Plane;
@@ -16,7 +16,7 @@ use crate::{FAST, world};
 
 const BOTH: [Impact; 2] = [Impact::EndOfStep, Impact::SubStep];
 
-fn floor<T: Real>() -> Plane<T> {
+fn floor<T: Compiled>() -> Plane<T> {
     Plane::new([T::ZERO; 3], [T::ZERO, T::ZERO, T::ONE])
 }
 
@@ -74,7 +74,7 @@ fn galperin() {
     }
 }
 
-fn bouncing<T: Real>(integrator: Integrator, impact: Impact, dt: f64) -> SceneBuilder<T> {
+fn bouncing<T: Compiled>(integrator: Integrator, impact: Impact, dt: f64) -> SceneBuilder<T> {
     Scene::<T>::builder()
         .gravity([T::ZERO, T::ZERO, -T::ONE])
         .surroundings(floor())
@@ -88,7 +88,7 @@ fn bouncing<T: Real>(integrator: Integrator, impact: Impact, dt: f64) -> SceneBu
 /// stays where it was: 1 ± 1e-12 after 1,000 bounces.
 #[test]
 fn apex_after_a_thousand_bounces() {
-    fn apex<T: Real>() -> f64 {
+    fn apex<T: Compiled>() -> f64 {
         let scene = bouncing::<T>(Integrator::VelocityVerlet, Impact::SubStep, 1.0 / 240.0);
         let mut world = world(scene.build().unwrap(), FAST);
         while world.collisions().surroundings < 1_000 {
@@ -125,7 +125,7 @@ fn plain_reversal_loses_what_the_law_says() {
 /// velocity and spin after each bounce (Garwin 1969: the third comes back).
 #[test]
 fn superball() {
-    fn errors<T: Real>(impact: Impact) -> f64 {
+    fn errors<T: Compiled>(impact: Impact) -> f64 {
         let (radius, height) = (0.5, 2.0);
         let ceiling =
             Plane::new([T::ZERO, T::ZERO, T::from_f64(height)], [T::ZERO, T::ZERO, -T::ONE]);
@@ -177,7 +177,7 @@ fn rough_ball_in_a_channel_does_not_fall() {
     let exact = [-1.0 / 2.0, -10.0 / 7.0, -169.0 / 98.0, -360.0 / 343.0, -841.0 / 4802.0];
     let mut heights = Vec::new();
     for _ in 0..550 {
-        world.step_with(&mut |event| heights.push(event.point.z));
+        world.take_steps(1, Some(&mut |event| heights.push(event.point.z)));
     }
     assert_eq!(heights.len(), exact.len());
     for (found, exact) in heights.iter().zip(exact) {
@@ -188,7 +188,7 @@ fn rough_ball_in_a_channel_does_not_fall() {
 /// Mean error of the velocity after a smooth collision of two equal spheres,
 /// relative to the speed, over impact parameters; `travel` is how far they move
 /// in a step, in diameters.
-fn pair_error<T: Real>(impact: Impact, travel: f64) -> f64 {
+fn pair_error<T: Compiled>(impact: Impact, travel: f64) -> f64 {
     let mut random = ChaCha8Rng::seed_from_u64(10);
     let mut sum = 0.0;
     let count = 2_000;

@@ -1,10 +1,9 @@
 //! The laws of energy and momentum, and the memory of a run.
 
 use carom::contact::Surface;
-use carom::engine::{Event, Partner};
+use carom::engine::{Compiled, Event, Partner};
 use carom::motion::Integrator;
 use carom::observe::{Energy, Momentum, Temperature, collision_rate, compressibility, total_mass};
-use carom::real::Real;
 use carom::scene::Impact;
 use carom::scene::{Scene, Sphere, Spheres};
 use carom::surroundings::{Cuboid, FixedSphere};
@@ -78,7 +77,7 @@ fn momentum_balance_is_exact() {
 /// change by percents.
 #[test]
 fn gas_keeps_its_energy() {
-    fn drift<T: Real>(surface: Surface, impact: Impact) -> f64 {
+    fn drift<T: Compiled>(surface: Surface, impact: Impact) -> f64 {
         let side = (1_000.0 * core::f64::consts::PI / 6.0 / 0.1).cbrt();
         let scene = Scene::<T>::builder()
             .surface(surface)
@@ -185,27 +184,30 @@ fn events_tell_the_whole_story() {
         let mut before = (0.0, 0, -1);
         let mut counted = [0, 0];
         for _ in 0..500 {
-            world.step_with(&mut |event: &Event<f64>| {
-                assert!(event.normal_impulse > 0.0);
-                assert!((event.normal.length() - 1.0).abs() < 1e-14);
-                assert!(event.normal.dot(event.tangential_impulse).abs() < 1e-12);
-                let (a, b) = match event.partner {
-                    Partner::Surroundings(part) => {
-                        assert_eq!(part, 0);
-                        (event.a as usize, -1)
-                    }
-                    Partner::Body { index, velocity, spin } => {
-                        assert!(event.a < index);
-                        last[index as usize] = (velocity, spin);
-                        (event.a as usize, i64::from(index))
-                    }
-                };
-                counted[usize::from(b < 0)] += 1;
-                last[a] = (event.velocity, event.spin);
-                let now = (event.time, a, b);
-                assert!(before <= now, "{before:?} then {now:?}");
-                before = now;
-            });
+            world.take_steps(
+                1,
+                Some(&mut |event: &Event<f64>| {
+                    assert!(event.normal_impulse > 0.0);
+                    assert!((event.normal.length() - 1.0).abs() < 1e-14);
+                    assert!(event.normal.dot(event.tangential_impulse).abs() < 1e-12);
+                    let (a, b) = match event.partner {
+                        Partner::Surroundings(part) => {
+                            assert_eq!(part, 0);
+                            (event.a as usize, -1)
+                        }
+                        Partner::Body { index, velocity, spin } => {
+                            assert!(event.a < index);
+                            last[index as usize] = (velocity, spin);
+                            (event.a as usize, i64::from(index))
+                        }
+                    };
+                    counted[usize::from(b < 0)] += 1;
+                    last[a] = (event.velocity, event.spin);
+                    let now = (event.time, a, b);
+                    assert!(before <= now, "{before:?} then {now:?}");
+                    before = now;
+                }),
+            );
         }
         let found = world.collisions();
         assert_eq!(counted, [found.pairs, found.surroundings]);
@@ -219,7 +221,7 @@ fn events_tell_the_whole_story() {
 
 #[test]
 fn memory_is_linear_and_small() {
-    fn bytes<T: Real>(count: u64) -> f64 {
+    fn bytes<T: Compiled>(count: u64) -> f64 {
         let side = (count as f64 * core::f64::consts::PI / 6.0 / 0.1).cbrt();
         let scene = Scene::<T>::builder()
             .surroundings(Cuboid::container([T::ZERO; 3], [T::from_f64(side); 3]))

@@ -9,8 +9,7 @@ mod same_bits;
 #[path = "../common/mod.rs"]
 mod common;
 
-use carom::engine::{Execution, Lanes, Stepped};
-use carom::real::Real;
+use carom::engine::{Compiled, Execution, Lanes, Stepped};
 use carom::scene::Scene;
 
 /// The scalar path on one thread.
@@ -20,6 +19,6 @@ pub const SCALAR: Execution = Execution { lanes: Lanes::Scalar, threads: 1 };
 pub const FAST: Execution = Execution { lanes: Lanes::Auto, threads: 1 };
 
 /// A scene at its start.
-pub fn world<T: Real>(scene: Scene<T>, execution: Execution) -> Stepped<T> {
+pub fn world<T: Compiled>(scene: Scene<T>, execution: Execution) -> Stepped<T> {
     Stepped::with_execution(scene, execution).unwrap()
 }

@@ -2,11 +2,11 @@
 //! taken one after another. Not close to it: the same bits.
 
 use carom::bodies::{Bodies, PerBody};
-use carom::contact::{Party, Surface, collide};
+use carom::contact::{Party, Rough, Smooth, Surface, collide};
+use carom::engine::Compiled;
 use carom::motion::flight::flight;
 use carom::motion::integrator::SemiImplicitEuler;
 use carom::observe::state_hash;
-use carom::real::Real;
 use carom::scene::{Scene, Sphere, Spheres};
 use carom::space::{OpenSpace, PeriodicBox, Space};
 use carom::surroundings::{Cuboid, FixedSphere, Plane};
@@ -14,12 +14,12 @@ use carom::vec3::Vec3;
 
 use crate::{FAST, SCALAR, world};
 
-struct Reference<T: Real> {
+struct Reference<T: Compiled> {
     bodies: Bodies<T>,
     collisions: [u64; 2],
 }
 
-impl<T: Real> Reference<T> {
+impl<T: Compiled> Reference<T> {
     fn party(&self, index: usize, share: T) -> Party<T> {
         Party {
             velocity: self.bodies.velocity_of(index),
@@ -42,9 +42,9 @@ impl<T: Real> Reference<T> {
         let [u, v, w] = &mut self.bodies.velocity;
         let dt = T::from_f64(scene.stepped.dt.unwrap());
         flight::<T, SemiImplicitEuler, S>([x, y, z], [u, v, w], scene.gravity, dt, space);
-        let collide = match scene.surface {
-            Surface::Smooth => collide::<T, false>,
-            Surface::Rough => collide::<T, true>,
+        let collide = |offset, a: &mut Party<T>, b: &mut Party<T>| match scene.surface {
+            Surface::Smooth => collide(Smooth, offset, a, b),
+            Surface::Rough => collide(Rough, offset, a, b),
         };
         for a in 0..self.bodies.len() {
             let center = self.bodies.position_of(a);
@@ -76,7 +76,7 @@ impl<T: Real> Reference<T> {
 
 /// Runs both and compares all bits but those of the orientations, which the
 /// reference does not turn.
-fn agree<T: Real>(scene: Scene<T>, steps: u64) {
+fn agree<T: Compiled>(scene: Scene<T>, steps: u64) {
     let mut reference = Reference { bodies: scene.bodies.clone(), collisions: [0; 2] };
     for _ in 0..steps {
         match scene.periodic {
@@ -96,7 +96,7 @@ fn agree<T: Real>(scene: Scene<T>, steps: u64) {
     }
 }
 
-fn scenes_agree<T: Real>() {
+fn scenes_agree<T: Compiled>() {
     let t = |value: f64| T::from_f64(value);
     let corner = |value: f64| [t(value); 3];
     for surface in [Surface::Smooth, Surface::Rough] {

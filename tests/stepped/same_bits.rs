@@ -1,9 +1,8 @@
 //! The same bits in every lane width and for any number of threads.
 
 use carom::bodies::Bodies;
-use carom::engine::{Execution, Lanes};
+use carom::engine::{Compiled, Execution, Lanes};
 use carom::observe::state_hash;
-use carom::real::Real;
 use carom::scene::Impact;
 use carom::scene::{SceneFile, builtin_scenes};
 
@@ -20,7 +19,7 @@ const PATHS: [Execution; 5] = [
     Execution { lanes: Lanes::Auto, threads: 2 },
 ];
 
-fn bodies_of<T: Real>(scene: &SceneFile, impact: Impact, execution: Execution) -> Bodies<T> {
+fn bodies_of<T: Compiled>(scene: &SceneFile, impact: Impact, execution: Execution) -> Bodies<T> {
     let mut scene = scene.build::<T>().unwrap();
     scene.stepped.impact = impact;
     let steps = (WORK / scene.bodies.len()).clamp(20, 4_000) as u64;
@@ -29,7 +28,7 @@ fn bodies_of<T: Real>(scene: &SceneFile, impact: Impact, execution: Execution) -
     world.bodies()
 }
 
-fn paths_agree<T: Real>(impact: Impact) {
+fn paths_agree<T: Compiled>(impact: Impact) {
     for builtin in builtin_scenes() {
         let scene = SceneFile::builtin(builtin.name).unwrap();
         let [first, others @ ..] = PATHS;

@@ -3,7 +3,7 @@
 
 use carom::DoubleDouble;
 use carom::contact::Surface;
-use carom::engine::{Execution, World};
+use carom::engine::{Compiled, Execution, World};
 use carom::lane::Lane;
 use carom::real::Real;
 use carom::scene::EngineKind;
@@ -202,7 +202,7 @@ fn built_in_scenes_agree_with_f64() {
     }
 }
 
-fn state<T: Real>(file: &SceneFile, duration: f64) -> World<T> {
+fn state<T: Compiled>(file: &SceneFile, duration: f64) -> World<T> {
     let mut world = World::<T>::new(file.build().unwrap(), Execution::default()).unwrap();
     let length = world.length(duration);
     while !world.advance(length, length, 1 << 20, None).unwrap() {}

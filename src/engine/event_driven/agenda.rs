@@ -1,6 +1,5 @@
 //! Agenda: what is ahead of each body, as far as it is known.
 
-use super::crossing::Exit;
 use crate::real::Real;
 
 /// Marks a partner that is a fixed feature, not a body.
@@ -14,7 +13,7 @@ impl PartnerCode {
     /// Nothing yet.
     pub const NONE: Self = Self(u32::MAX);
 
-    /// A body, by its place or by its index.
+    /// A body, by its slot or by its index.
     #[inline(always)]
     pub fn body(number: u32) -> Self {
         Self(number)
@@ -38,14 +37,21 @@ impl PartnerCode {
 pub(super) struct Expected<T> {
     /// When, since the period's start.
     pub time: T,
-    /// With whom, by place.
+    /// The partner, by slot.
     pub partner: PartnerCode,
     /// How often the partner's motion had changed when this was found.
     pub changes: u32,
 }
 
-/// How many contacts a body keeps. With one, .06 searches a collision are made
-/// again since the partner has met somebody else before; with two, .01.
+/// The face of a cell that a body leaves it through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Exit {
+    pub axis: u8,
+    pub up: bool,
+}
+
+/// How many contacts a body keeps. With one, 0.06 searches a collision are made
+/// again since the partner has met another body before; with two, 0.01.
 const KEPT: usize = 2;
 
 /// What is ahead of a body, on cache lines of its own.
@@ -80,7 +86,7 @@ pub(super) struct Mark {
 pub(super) enum Next<T> {
     /// It leaves its cell.
     LeavesCell,
-    /// It meets somebody, if he has not changed since.
+    /// It meets a partner, if that has not changed since.
     Meets(Expected<T>),
     /// What comes after is not known.
     Searches,
@@ -101,7 +107,7 @@ impl<T: Real> Agenda<T> {
         }
     }
 
-    /// Forgets all contacts: those up to `until` are about to be found anew.
+    /// Forgets all contacts: those up to `until` are about to be found again.
     #[inline(always)]
     pub fn clear(&mut self, until: T) {
         self.len = 0;
@@ -178,7 +184,7 @@ impl<T: Real> Agenda<T> {
     }
 
     /// What the body does at [`next_time`](Agenda::next_time). It leaves a cell
-    /// before it meets anybody at the same time: who is in the next one must be
+    /// before it meets a body at the same time: the bodies of the next one must be
     /// known by then.
     #[inline(always)]
     pub fn next(&self) -> Next<T> {

@@ -1,8 +1,8 @@
-//! Calendar: whose turn it is, at a cost that does not grow with the bodies.
+//! Calendar: which body is next, at a cost that does not grow with the bodies.
 //!
 //! The period is cut into spans of equal length. A body is put down in the span
 //! of its turn as it comes, unsorted, and without its time, which is in its
-//! agenda; a span is sorted when its time has come, and bodies whose turn is no
+//! agenda; a span is sorted when its time has come, and bodies that are due no
 //! longer in it are thrown out then (a calendar queue, Brown 1988, without
 //! removal).
 
@@ -15,8 +15,8 @@ use crate::real::Real;
 pub(super) struct Turn<T> {
     /// Time since the period's start.
     pub time: T,
-    /// The body's place.
-    pub place: u32,
+    /// The body's slot.
+    pub slot: u32,
 }
 
 /// Places that lie together in memory, on one cache line: few enough to waste
@@ -31,7 +31,7 @@ const MOST_SPANS: usize = 1 << 24;
 
 #[derive(Clone, Copy, Debug)]
 struct Chunk {
-    places: [u32; CHUNK],
+    slots: [u32; CHUNK],
     len: u32,
     /// The chunk before, of the same span or of the free ones.
     before: u32,
@@ -80,7 +80,7 @@ impl<T: Real> Calendar<T> {
         self.now.clear();
     }
 
-    /// Enters a turn, if it is in this period. `order` is that of places whose
+    /// Enters a turn, if it is in this period. `order` is that of slots whose
     /// turns have equal times.
     #[inline(always)]
     pub fn enter(&mut self, turn: Turn<T>, order: impl Fn(u32, u32) -> Ordering) {
@@ -89,7 +89,7 @@ impl<T: Real> Calendar<T> {
         }
         let span = self.span_of(turn.time);
         if span > self.span {
-            self.append(span, turn.place);
+            self.append(span, turn.slot);
             return;
         }
         // Among the present ones, which are few.
@@ -112,13 +112,13 @@ impl<T: Real> Calendar<T> {
     }
 
     #[inline(always)]
-    fn append(&mut self, span: usize, place: u32) {
+    fn append(&mut self, span: usize, slot: u32) {
         let mut last = self.last[span];
         if last == NO_CHUNK || self.chunks[last as usize].len as usize == CHUNK {
             let before = last;
             if self.free == NO_CHUNK {
                 last = self.chunks.len() as u32;
-                self.chunks.push(Chunk { places: [place; CHUNK], len: 0, before });
+                self.chunks.push(Chunk { slots: [slot; CHUNK], len: 0, before });
             } else {
                 last = self.free;
                 let chunk = &mut self.chunks[last as usize];
@@ -129,12 +129,12 @@ impl<T: Real> Calendar<T> {
             self.last[span] = last;
         }
         let chunk = &mut self.chunks[last as usize];
-        chunk.places[chunk.len as usize % CHUNK] = place;
+        chunk.slots[chunk.len as usize % CHUNK] = slot;
         chunk.len += 1;
     }
 
     /// The next turn, left in the calendar. `time_of` says when the turn of the
-    /// body at a place is now; others are dropped.
+    /// body at a slot is now; others are dropped.
     #[inline(always)]
     pub fn next(
         &mut self,
@@ -143,7 +143,7 @@ impl<T: Real> Calendar<T> {
     ) -> Option<Turn<T>> {
         loop {
             while let Some(&turn) = self.now.last() {
-                if time_of(turn.place) == turn.time {
+                if time_of(turn.slot) == turn.time {
                     return Some(turn);
                 }
                 self.now.pop();
@@ -173,10 +173,10 @@ impl<T: Real> Calendar<T> {
         let mut last = core::mem::replace(&mut self.last[self.span], NO_CHUNK);
         while last != NO_CHUNK {
             let chunk = self.chunks[last as usize];
-            for &place in &chunk.places[..chunk.len as usize] {
-                let time = time_of(place);
+            for &slot in &chunk.slots[..chunk.len as usize] {
+                let time = time_of(slot);
                 if time < self.end && self.span_of(time) == self.span {
-                    self.now.push(Turn { time, place });
+                    self.now.push(Turn { time, slot });
                 }
             }
             let chunk = &mut self.chunks[last as usize];
@@ -199,5 +199,5 @@ impl<T: Real> Calendar<T> {
 #[inline(always)]
 fn compared<T: Real>(a: Turn<T>, b: Turn<T>, order: &impl Fn(u32, u32) -> Ordering) -> Ordering {
     let times = a.time.partial_cmp(&b.time).unwrap_or(Ordering::Equal);
-    times.then_with(|| order(a.place, b.place))
+    times.then_with(|| order(a.slot, b.slot))
 }

@@ -1,10 +1,10 @@
-//! Coarse: flights in a coarser precision, to tell quickly whom a body cannot
+//! Coarse: flights in a coarser precision, to tell quickly which bodies a body cannot
 //! meet.
 //!
 //! Of a body's two dozen neighbours it can meet two or three. The others are
 //! passed over in the coarse precision, twice as many at once, with radii that
-//! are greater by more than all its rounding errors: whoever can be met is
-//! never passed over, and who remains is tried in the full precision, so that
+//! are greater by more than all its rounding errors: a body that can be met is
+//! never passed over, and what remains is tried in the full precision, so that
 //! no bit of any contact time depends on this.
 
 use super::flight::{Flight, Record};
@@ -102,18 +102,18 @@ impl<C: Real> Coarse<C> {
 
     /// Puts the new flight of a body down.
     #[inline(always)]
-    pub fn put<T: Real>(&mut self, place: usize, flight: &Flight<T>) {
+    pub fn put<T: Real>(&mut self, slot: usize, flight: &Flight<T>) {
         if self.is_useful {
-            self.records[place] = self.record(flight);
+            self.records[slot] = self.record(flight);
         }
     }
 
-    /// Keeps of the bodies found those that the body at a place might meet, and
+    /// Keeps of the bodies found those that the body at a slot might meet, and
     /// returns how many. `found` holds whole packs.
     #[inline(always)]
     pub fn screen<L, F, S, const STARTS: bool>(
         &self,
-        place: u32,
+        slot: u32,
         found: &mut [u32],
         now: C,
         space: S,
@@ -124,7 +124,7 @@ impl<C: Real> Coarse<C> {
         F: FlightStep,
         S: Space<C>,
     {
-        let flight = Flight::<L>::splat(&self.records[place as usize].flight());
+        let flight = Flight::<L>::splat(&self.records[slot as usize].flight());
         let (gravity, now) = (Vec3::<L>::splat(self.gravity), L::splat(now));
         let slack = L::splat(self.slack);
         let mut kept = 0;

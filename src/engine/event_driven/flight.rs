@@ -55,12 +55,12 @@ impl<L: Lane> Flight<L> {
         }
     }
 
-    /// The flights of the bodies at some places.
+    /// The flights of the bodies at some slots.
     #[inline(always)]
-    pub fn gather(records: &[Record<L::Scalar>], places: &[u32]) -> Self {
+    pub fn gather(records: &[Record<L::Scalar>], slots: &[u32]) -> Self {
         let mut rows = [&records[0].reals; WIDEST];
-        for (row, &place) in rows.iter_mut().zip(&places[..L::WIDTH]) {
-            *row = &records[place as usize].reals;
+        for (row, &slot) in rows.iter_mut().zip(&slots[..L::WIDTH]) {
+            *row = &records[slot as usize].reals;
         }
         Self::from_columns(L::transpose(&rows))
     }

@@ -66,7 +66,7 @@ impl<L: Lane> Meeting<L> {
 /// How many meetings are worked out before any is looked at.
 pub(super) const TOGETHER: usize = 64;
 
-/// The meetings of a body with up to [`TOGETHER`] others. Whoever is not met is
+/// The meetings of a body with up to [`TOGETHER`] others. One that is not met is
 /// passed over without a branch, which would be mispredicted once in two packs.
 #[derive(Clone, Debug)]
 pub(super) struct Meetings<T> {

@@ -1,15 +1,19 @@
 //! Period: a stretch of time with an origin of its own.
 //!
 //! Times are counted from the period's start, so that a long run has times as
-//! exact as a short one. Where a period begins, every flight starts anew, bodies
+//! exact as a short one. Where a period begins, every flight starts again, bodies
 //! are sorted by cell and all that is ahead is looked for again.
 
-use super::EventDriven;
-use super::agenda::{Agenda, Mark, PartnerCode};
+use super::agenda::Agenda;
+use super::clock::Clock;
 use super::coarse::Scales;
+use super::crossing::plan_crossing;
 use super::flight::{Flight, Record};
-use crate::column::Column;
-use crate::engine::plan::Turning;
+use super::region::Region;
+use super::search::search;
+use super::setting::Setting;
+use super::turns::enter;
+use crate::engine::account::Account;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
@@ -31,163 +35,134 @@ const TURNS: f64 = 64.0;
 /// The longest period, about 10²⁴, for bodies that meet nothing or stand still.
 const LONGEST: f64 = (1_u128 << 80) as f64;
 
-impl<T: Real> EventDriven<T> {
-    /// Puts the bodies of the scene in their places, and begins the first
-    /// period.
-    pub(super) fn settle(&mut self) {
-        let len = self.bodies.len();
-        let bodies = &self.bodies;
-        let flight = |index: usize| Flight {
-            position: bodies.position_of(index),
-            velocity: bodies.velocity_of(index),
-            since: T::ZERO,
-            radius: bodies.radius.of(index),
-        };
-        self.records = (0..len).map(|index| Record::new(flight(index))).collect();
-        if self.plan.turning == Turning::FromLastContact {
-            self.spins = (0..len).map(|index| bodies.spin_of(index)).collect();
-            self.turned = (0..len).map(|index| (bodies.orientation_of(index), T::ZERO)).collect();
-        }
-        // What is kept by place is kept once.
-        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
-        (self.bodies.position, self.bodies.velocity) = (nothing(), nothing());
-        if !self.spins.is_empty() {
-            (self.bodies.spin, self.bodies.orientation) = (nothing(), None);
-        }
-        self.marks = vec![Mark { changes: 0, last: PartnerCode::NONE }; len];
-        self.agendas = vec![Agenda::new([0; 3]); len];
-        self.begin_period(T::ZERO);
+/// Ends the present period at a time of it, and begins the next one.
+pub(super) fn begin_period<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    clock: &mut Clock<T>,
+    account: &mut Account,
+    end: T,
+) {
+    for slot in 0..region.records.len() {
+        end_flight(setting, region, account, slot, end, T::ZERO);
     }
+    let counted = clock.end_period(end);
+    region.is_too_fast = false;
+    (clock.period, clock.too_fast) = chosen_period(setting, region);
+    let turns =
+        counted.unwrap_or_else(|| TURNS * region.records.len() as f64 / clock.period.to_f64());
+    region.calendar.begin(clock.period, turns, TOGETHER);
+    sort(setting, region);
+    let scales = scales(setting, region, clock);
+    region.coarse.begin(&region.records, &scales);
+    for slot in 0..region.records.len() as u32 {
+        plan_crossing(setting, region, slot, T::ZERO, clock.period);
+        search(setting, region, &mut account.effort, slot, T::ZERO, clock.period);
+        enter(region, slot);
+    }
+}
 
-    /// A time since the start of the run, as one since the start of the present
-    /// period.
-    pub(super) fn in_period(&self, time: f64) -> T {
-        T::from_f64(time - self.origin.value()) - T::from_f64(self.origin.remainder())
+/// Ends the flight of the body in a slot at a time. The next one starts at
+/// `since`, which is that time or, in the next period, its start.
+#[inline(always)]
+pub(super) fn end_flight<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    account: &mut Account,
+    slot: usize,
+    time: T,
+    since: T,
+) {
+    let (position, velocity) = region.state_of(setting, slot, time);
+    let before = region.records[slot].flight();
+    account.flight(before.velocity.length() * (time - before.since));
+    let mut flight = Flight { position, velocity, since, radius: before.radius };
+    if let Some(space) = setting.periodic {
+        flight.position = space.wrap(position);
+        let turns = space.turns(position - flight.position);
+        let cell = &mut region.agendas[slot].cell;
+        *cell = region.cells.turned_back(*cell, turns);
     }
+    region.records[slot] = Record::new(flight);
+    if let Some((orientation, turned_at)) = region.turned.get_mut(slot) {
+        *orientation = turned(*orientation, region.spins[slot], time - *turned_at);
+        *turned_at = since;
+    }
+}
 
-    /// Ends the present period at a time of it, and begins the next one.
-    pub(super) fn begin_period(&mut self, end: T) {
-        for place in 0..self.records.len() {
-            self.end_flight(place, end, T::ZERO);
-        }
-        let rounded = end.to_f64();
-        self.origin.add(rounded);
-        // What a finer precision than `f64` has besides.
-        self.origin.add((end - T::from_f64(rounded)).to_f64());
-        self.is_too_fast = false;
-        self.last_time = T::ZERO;
-        self.progress = T::ZERO;
-        self.choose_period();
-        let turns = if self.turns == 0 || end == T::ZERO {
-            TURNS * self.records.len() as f64 / self.period.to_f64()
-        } else {
-            self.turns as f64 / end.to_f64()
-        };
-        self.calendar.begin(self.period, turns, TOGETHER);
-        self.turns = 0;
-        self.sort();
-        self.coarse.begin(&self.records, &self.scales());
-        for place in 0..self.records.len() as u32 {
-            self.plan_crossing(place, T::ZERO);
-            self.search(place, T::ZERO);
-            self.enter(place);
-        }
+/// The power of two nearest below the time that bodies take for a few mean
+/// distances: multiples of it are added up without rounding. And the square of
+/// the speed from which that is too long.
+fn chosen_period<T: Real>(setting: &Setting<T>, region: &Region<T>) -> (T, T) {
+    if !setting.plan.has_pairs && setting.features.is_empty() {
+        return (T::from_f64(LONGEST), T::from_f64(LONGEST));
     }
+    let len = region.records.len();
+    let mut squares = vec![0.0; len];
+    for (record, &index) in region.records.iter().zip(&region.index) {
+        squares[index as usize] = record.flight().velocity.length_squared().to_f64();
+    }
+    // In the scene's order: the sum must not depend on slots.
+    let mean = squares.iter().sum::<f64>() / len as f64;
+    let most = squares.iter().fold(0.0, |most: f64, &square| most.max(square));
+    let spacing = setting.spacing.to_f64();
+    let fallen = setting.gravity.length().to_f64() * spacing;
+    let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
+    let flight = (FLIGHT * spacing / speed).clamp(1e-25, LONGEST);
+    let limit = 2.0 * FAST * speed;
+    (T::from_f64(power_of_two_below(flight)), T::from_f64((limit * limit).max(1e-30)))
+}
 
-    /// Ends the flight of the body at a place at a time. The next one starts at
-    /// `since`, which is that time or, in the next period, its start.
-    #[inline(always)]
-    pub(super) fn end_flight(&mut self, place: usize, time: T, since: T) {
-        let (position, velocity) = self.state_of(place, time);
-        let before = self.records[place].flight();
-        self.tallies.flight(before.velocity.length() * (time - before.since));
-        let mut flight = Flight { position, velocity, since, radius: before.radius };
-        if let Some(space) = self.periodic {
-            flight.position = space.wrap(position);
-            let turns = space.turns(position - flight.position);
-            let cell = &mut self.agendas[place].cell;
-            *cell = self.cells.turned_back(*cell, turns);
-        }
-        self.records[place] = Record::new(flight);
-        if let Some((orientation, turned_at)) = self.turned.get_mut(place) {
-            *orientation = turned(*orientation, self.spins[place], time - *turned_at);
-            *turned_at = since;
-        }
+/// What the errors of the coarse precision are measured by.
+fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -> Scales {
+    let greatest = |most: f64, value: T| most.max(value.to_f64().abs());
+    let extent = region.records.iter().fold(0.0, |most, record| {
+        record.flight().position.to_array().into_iter().fold(most, greatest)
+    });
+    let least = region
+        .records
+        .iter()
+        .fold(f64::INFINITY, |least: f64, record| least.min(record.flight().radius.to_f64()));
+    let fallen = setting.gravity.length().to_f64() * clock.period.to_f64();
+    Scales {
+        extent,
+        neighbourhood: region.cells.neighbourhood(),
+        reach: 2.0 * least,
+        speed: clock.too_fast.to_f64().sqrt() + fallen,
+        period: clock.period.to_f64(),
     }
+}
 
-    /// The power of two nearest below the time that bodies take for a few mean
-    /// distances: multiples of it are added up without rounding.
-    fn choose_period(&mut self) {
-        if !self.plan.has_pairs && self.features.is_empty() {
-            (self.period, self.too_fast) = (T::from_f64(LONGEST), T::from_f64(LONGEST));
-            return;
-        }
-        let len = self.records.len();
-        let mut squares = vec![0.0; len];
-        for (record, &index) in self.records.iter().zip(&self.index) {
-            squares[index as usize] = record.flight().velocity.length_squared().to_f64();
-        }
-        // In the scene's order: the sum must not depend on places.
-        let mean = squares.iter().sum::<f64>() / len as f64;
-        let most = squares.iter().fold(0.0, |most: f64, &square| most.max(square));
-        let spacing = self.spacing.to_f64();
-        let fallen = self.gravity.length().to_f64() * spacing;
-        let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
-        let flight = (FLIGHT * spacing / speed).clamp(1e-25, LONGEST);
-        self.period = T::from_f64(power_of_two_below(flight));
-        let limit = 2.0 * FAST * speed;
-        self.too_fast = T::from_f64((limit * limit).max(1e-30));
+/// Sorts the bodies by cell: neighbours in space become neighbours in memory.
+fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
+    let cells = &mut region.cells;
+    cells.clear();
+    let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(region.records.len());
+    for (slot, record) in region.records.iter().enumerate() {
+        let cell = cells.cell_of(record.flight().position);
+        order.push((cells.number_of(cell), region.index[slot], slot as u32));
     }
+    order.sort_unstable();
+    region.records = reordered(&region.records, &order);
+    region.index = order.iter().map(|slot| slot.1).collect();
+    if !region.turned.is_empty() {
+        region.spins = reordered(&region.spins, &order);
+        region.turned = reordered(&region.turned, &order);
+    }
+    region.marks = reordered(&region.marks, &order);
+    let agenda = |record: &Record<T>| Agenda::new(cells.cell_of(record.flight().position));
+    region.agendas = region.records.iter().map(agenda).collect();
+    if setting.plan.has_pairs {
+        for (slot, agenda) in region.agendas.iter().enumerate() {
+            region.cells.insert(agenda.cell, slot as u32);
+        }
+        region.make_room();
+    }
+}
 
-    /// What the errors of the coarse precision are measured by.
-    fn scales(&self) -> Scales {
-        let greatest = |most: f64, value: T| most.max(value.to_f64().abs());
-        let extent = self.records.iter().fold(0.0, |most, record| {
-            record.flight().position.to_array().into_iter().fold(most, greatest)
-        });
-        let least = self
-            .records
-            .iter()
-            .fold(f64::INFINITY, |least: f64, record| least.min(record.flight().radius.to_f64()));
-        let fallen = self.gravity.length().to_f64() * self.period.to_f64();
-        Scales {
-            extent,
-            neighbourhood: self.cells.neighbourhood(),
-            reach: 2.0 * least,
-            speed: self.too_fast.to_f64().sqrt() + fallen,
-            period: self.period.to_f64(),
-        }
-    }
-
-    /// Sorts the bodies by cell: neighbours in space become neighbours in
-    /// memory.
-    fn sort(&mut self) {
-        let cells = &mut self.cells;
-        cells.clear();
-        let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(self.records.len());
-        for (place, record) in self.records.iter().enumerate() {
-            let cell = cells.cell_of(record.flight().position);
-            order.push((cells.number_of(cell), self.index[place], place as u32));
-        }
-        order.sort_unstable();
-        let records = &self.records;
-        let from = |place: &(u32, u32, u32)| place.2 as usize;
-        self.records = order.iter().map(|place| records[from(place)]).collect();
-        self.index = order.iter().map(|place| place.1).collect();
-        if !self.turned.is_empty() {
-            self.spins = order.iter().map(|place| self.spins[from(place)]).collect();
-            self.turned = order.iter().map(|place| self.turned[from(place)]).collect();
-        }
-        self.marks = order.iter().map(|place| self.marks[from(place)]).collect();
-        let agenda = |record: &Record<T>| Agenda::new(cells.cell_of(record.flight().position));
-        self.agendas = self.records.iter().map(agenda).collect();
-        if self.plan.has_pairs {
-            for place in 0..self.records.len() {
-                self.cells.insert(self.agendas[place].cell, place as u32);
-            }
-            self.make_room();
-        }
-    }
+/// What each slot of an order, its third number, holds.
+fn reordered<V: Copy>(values: &[V], order: &[(u32, u32, u32)]) -> Vec<V> {
+    order.iter().map(|slot| values[slot.2 as usize]).collect()
 }
 
 /// The greatest power of two that is not above a positive number. By its bits: a

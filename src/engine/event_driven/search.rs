@@ -1,10 +1,13 @@
 //! Search: what a body will meet.
 
-use super::EventDriven;
 use super::agenda::{Expected, PartnerCode};
 use super::cells::Cells;
+use super::features::search_features;
 use super::flight::Flight;
 use super::meeting::{TOGETHER, meeting};
+use super::region::Region;
+use super::setting::Setting;
+use crate::engine::account::Effort;
 use crate::engine::plan::Plan;
 use crate::lane::Lane;
 use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
@@ -12,172 +15,185 @@ use crate::real::Real;
 use crate::space::{OpenSpace, Space};
 use crate::vec3::Vec3;
 
-/// Looks for the contacts of the body at a place with the `len` bodies found.
-pub(super) type Search<T> = fn(&mut EventDriven<T>, place: u32, len: usize, now: T);
+/// Looks for the contacts of the body in a slot with the `len` bodies found.
+pub(super) type Search<T> =
+    fn(&Setting<T>, &mut Region<T>, &mut Effort, slot: u32, len: usize, now: T);
 
-impl<T: Real> EventDriven<T> {
-    /// Finds anew what the body at a place will meet.
-    pub(super) fn search(&mut self, place: u32, now: T) {
-        let agenda = &mut self.agendas[place as usize];
-        agenda.clear(self.period);
-        let cell = agenda.cell;
-        if self.plan.features > 0 {
-            self.search_features(place);
-        }
-        if self.plan.has_pairs {
-            let len = self.cells.around(cell, &mut self.found);
-            (self.search_bodies)(self, place, len, now);
-        }
+/// Finds again what the body in a slot will meet in a period of this length.
+pub(super) fn search<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    effort: &mut Effort,
+    slot: u32,
+    now: T,
+    period: T,
+) {
+    let agenda = &mut region.agendas[slot as usize];
+    agenda.clear(period);
+    let cell = agenda.cell;
+    if setting.plan.features > 0 {
+        search_features(setting, region, slot);
     }
-
-    pub(super) fn search_open<L, C, F>(&mut self, place: u32, len: usize, now: T)
-    where
-        L: Lane<Scalar = T>,
-        C: Lane<Scalar = T::Coarse>,
-        F: FlightStep,
-    {
-        self.search_found::<L, C, F, _, _>(place, len, now, OpenSpace, OpenSpace);
+    if setting.plan.has_pairs {
+        let len = region.cells.around(cell, &mut region.found);
+        (setting.search_bodies)(setting, region, effort, slot, len, now);
     }
+}
 
-    pub(super) fn search_periodic<L, C, F>(&mut self, place: u32, len: usize, now: T)
-    where
-        L: Lane<Scalar = T>,
-        C: Lane<Scalar = T::Coarse>,
-        F: FlightStep,
-    {
-        if let (Some(space), Some(coarse)) = (self.periodic, self.coarse.periodic) {
-            self.search_found::<L, C, F, _, _>(place, len, now, space, coarse);
-        }
+fn search_open<T, L, C, F>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    effort: &mut Effort,
+    slot: u32,
+    len: usize,
+    now: T,
+) where
+    T: Real,
+    L: Lane<Scalar = T>,
+    C: Lane<Scalar = T::Coarse>,
+    F: FlightStep,
+{
+    let search = Found { setting, slot, now, space: OpenSpace, coarse: OpenSpace };
+    search.run::<L, C, F>(region, effort, len);
+}
+
+fn search_periodic<T, L, C, F>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    effort: &mut Effort,
+    slot: u32,
+    len: usize,
+    now: T,
+) where
+    T: Real,
+    L: Lane<Scalar = T>,
+    C: Lane<Scalar = T::Coarse>,
+    F: FlightStep,
+{
+    if let (Some(space), Some(coarse)) = (setting.periodic, region.coarse.periodic) {
+        let search = Found { setting, slot, now, space, coarse };
+        search.run::<L, C, F>(region, effort, len);
     }
+}
 
-    /// Looks for contacts with the bodies found.
+/// A search among the bodies found.
+struct Found<'a, T: Real, S, R> {
+    setting: &'a Setting<T>,
+    slot: u32,
+    now: T,
+    space: S,
+    coarse: R,
+}
+
+impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
     #[inline(always)]
-    fn search_found<L, C, F, S, R>(&mut self, place: u32, len: usize, now: T, space: S, coarse: R)
+    fn run<L, C, F>(&self, region: &mut Region<T>, effort: &mut Effort, len: usize)
     where
         L: Lane<Scalar = T>,
         C: Lane<Scalar = T::Coarse>,
         F: FlightStep,
-        S: Space<T>,
-        R: Space<T::Coarse>,
     {
-        self.effort.tried += len as u64;
-        if self.records[place as usize].flight().since == now {
-            let len = self.screened::<C, F, R, true>(place, len, now, coarse);
-            self.search_packs::<L, F, S, true>(place, len, now, space);
+        effort.tried += len as u64;
+        if region.records[self.slot as usize].flight().since == self.now {
+            let len = self.screened::<C, F, true>(region, len);
+            effort.remaining += len as u64;
+            self.search_packs::<L, F, true>(region, len);
         } else {
-            let len = self.screened::<C, F, R, false>(place, len, now, coarse);
-            self.search_packs::<L, F, S, false>(place, len, now, space);
+            let len = self.screened::<C, F, false>(region, len);
+            effort.remaining += len as u64;
+            self.search_packs::<L, F, false>(region, len);
         }
     }
 
     /// Passes over those of the bodies found that cannot be met. The last pack
     /// is filled up with the body itself, which never meets itself.
     #[inline(always)]
-    fn screened<C, F, R, const STARTS: bool>(
-        &mut self,
-        place: u32,
-        len: usize,
-        now: T,
-        space: R,
-    ) -> usize
+    fn screened<C, F, const STARTS: bool>(&self, region: &mut Region<T>, len: usize) -> usize
     where
         C: Lane<Scalar = T::Coarse>,
         F: FlightStep,
-        R: Space<T::Coarse>,
     {
-        if !self.coarse.is_useful {
+        // Otherwise the coarse precision is this one.
+        if const { size_of::<T::Coarse>() == size_of::<T>() } || !region.coarse.is_useful {
             return len;
         }
         let whole = len.next_multiple_of(C::WIDTH);
-        let Self { found, coarse, coarse_further, .. } = self;
-        let found = &mut found[..whole];
-        found[len..].fill(place);
-        let now = T::Coarse::from_f64(now.to_f64());
-        coarse.screen::<C, F, R, STARTS>(place, found, now, space, coarse_further)
+        let found = &mut region.found[..whole];
+        found[len..].fill(self.slot);
+        let now = T::Coarse::from_f64(self.now.to_f64());
+        let further = &self.setting.coarse_further;
+        region.coarse.screen::<C, F, R, STARTS>(self.slot, found, now, self.coarse, further)
     }
 
     /// Looks for contacts with the bodies found, in whole packs, the last one
     /// filled up with the body itself.
     #[inline(always)]
-    fn search_packs<L, F, S, const STARTS: bool>(
-        &mut self,
-        place: u32,
-        len: usize,
-        now: T,
-        space: S,
-    ) where
+    fn search_packs<L, F, const STARTS: bool>(&self, region: &mut Region<T>, len: usize)
+    where
         L: Lane<Scalar = T>,
         F: FlightStep,
-        S: Space<T>,
     {
-        let packs = len.div_ceil(L::WIDTH);
-        self.found[len..packs * L::WIDTH].fill(place);
-        self.effort.remaining += len as u64;
-        let own = self.records[place as usize].flight();
-        let (flight, gravity) = (Flight::<L>::splat(&own), Vec3::<L>::splat(self.gravity));
+        let &Self { setting, slot, now, space, .. } = self;
+        let end = len.next_multiple_of(L::WIDTH);
+        region.found[len..end].fill(slot);
+        let own = region.records[slot as usize].flight();
+        let (flight, gravity) = (Flight::<L>::splat(&own), Vec3::<L>::splat(setting.gravity));
         let at = L::splat(now);
-        for image in 0..self.further.len() {
-            let further = Vec3::<L>::splat(self.further[image]);
-            for start in (0..packs * L::WIDTH).step_by(TOGETHER) {
-                let end = (packs * L::WIDTH).min(start + TOGETHER);
-                let Self { found, records, meetings, .. } = self;
-                for (pack, found) in found[start..end].chunks_exact(L::WIDTH).enumerate() {
-                    let others = Flight::<L>::gather(records, found);
+        for &image in &setting.further {
+            let further = Vec3::<L>::splat(image);
+            for start in (0..end).step_by(TOGETHER) {
+                let end = end.min(start + TOGETHER);
+                for (pack, found) in region.found[start..end].chunks_exact(L::WIDTH).enumerate() {
+                    let others = Flight::<L>::gather(&region.records, found);
                     let met =
                         meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, at);
-                    meetings.put(pack * L::WIDTH, &met);
+                    region.meetings.put(pack * L::WIDTH, &met);
                 }
-                while let Some((k, time)) = self.meetings.take() {
-                    let other = self.found[start + k];
-                    if time.ge(self.agendas[place as usize].complete_until()) {
+                while let Some((k, time)) = region.meetings.take() {
+                    let other = region.found[start + k];
+                    if time.ge(region.agendas[slot as usize].complete_until()) {
                         continue;
                     }
-                    if self.met_last(place as usize, other as usize) {
+                    if met_last(region, slot as usize, other as usize) {
                         // Rounding may tell that two bodies that have just met
                         // approach again. Through the other side of a periodic
                         // box they may well meet.
-                        let other = self.records[other as usize].flight();
-                        let (further, gravity) = (self.further[image], self.gravity);
+                        let other = region.records[other as usize].flight();
+                        let gravity = setting.gravity;
                         let met =
-                            meeting::<T, F, S, STARTS>(&own, &other, gravity, space, further, now);
+                            meeting::<T, F, S, STARTS>(&own, &other, gravity, space, image, now);
                         if met.is_touching() {
                             continue;
                         }
                     }
-                    self.expect(place, other, time);
+                    let changes = region.marks[other as usize].changes;
+                    let partner = PartnerCode::body(other);
+                    keep(region, slot, Expected { time, partner, changes });
                 }
             }
         }
     }
+}
 
-    /// Keeps a contact with another body.
-    #[inline(always)]
-    fn expect(&mut self, place: u32, other: u32, time: T) {
-        let changes = self.marks[other as usize].changes;
-        let found = Expected { time, partner: PartnerCode::body(other), changes };
-        self.keep(place, found);
-    }
+/// Keeps a contact of the body in a slot if it is among its first.
+#[inline(always)]
+pub(super) fn keep<T: Real>(region: &mut Region<T>, slot: u32, found: Expected<T>) {
+    let index = &region.index;
+    let comes_first = |a, b| rank(index, slot, a) < rank(index, slot, b);
+    region.agendas[slot as usize].keep(found, comes_first);
+}
 
-    /// Keeps a contact of the body at a place if it is among its first.
-    #[inline(always)]
-    pub(super) fn keep(&mut self, place: u32, found: Expected<T>) {
-        let index = &self.index;
-        let comes_first = |a, b| rank(index, place, a) < rank(index, place, b);
-        self.agendas[place as usize].keep(found, comes_first);
-    }
-
-    /// Whether each of two bodies has met nobody since they met each other.
-    #[inline(always)]
-    fn met_last(&self, a: usize, b: usize) -> bool {
-        let is_last = |a: usize, b: usize| self.marks[a].last == PartnerCode::body(self.index[b]);
-        is_last(a, b) && is_last(b, a)
-    }
+/// Whether each of two bodies has met no other since they met each other.
+#[inline(always)]
+fn met_last<T: Real>(region: &Region<T>, a: usize, b: usize) -> bool {
+    let is_last = |a: usize, b: usize| region.marks[a].last == PartnerCode::body(region.index[b]);
+    is_last(a, b) && is_last(b, a)
 }
 
 /// The order of contacts at equal times: by the first body of the scene, the
 /// surroundings before other bodies.
-pub(super) fn rank(index: &[u32], place: u32, partner: PartnerCode) -> (u32, bool, u32) {
-    let own = index[place as usize];
+pub(super) fn rank(index: &[u32], slot: u32, partner: PartnerCode) -> (u32, bool, u32) {
+    let own = index[slot as usize];
     match partner.decoded() {
         Ok(other) => {
             let other = index[other as usize];
@@ -187,17 +203,25 @@ pub(super) fn rank(index: &[u32], place: u32, partner: PartnerCode) -> (u32, boo
     }
 }
 
-/// The search of a plan.
+/// The search of a plan. Widths that the plan of a precision never chooses are
+/// not compiled for it.
 pub(super) fn searcher<T: Real>(plan: &Plan, is_periodic: bool) -> Search<T> {
     type Pack4<T> = <<T as Real>::Coarse as Real>::Pack4;
     type Pack8<T> = <<T as Real>::Coarse as Real>::Pack8;
     type Pack16<T> = <<T as Real>::Coarse as Real>::Pack16;
-    match (plan.gather_lanes, plan.sweep_lanes) {
-        (1, _) => searcher_in::<T, T, T::Coarse>(plan, is_periodic),
-        (4, 4) => searcher_in::<T, T::Pack4, Pack4<T>>(plan, is_periodic),
-        (8, 8) => searcher_in::<T, T::Pack8, Pack8<T>>(plan, is_periodic),
-        (4, _) => searcher_in::<T, T::Pack4, Pack16<T>>(plan, is_periodic),
-        (_, _) => searcher_in::<T, T::Pack8, Pack16<T>>(plan, is_periodic),
+    if const { <T::Pack8 as Lane>::WIDTH == 1 } {
+        return searcher_in::<T, T, Pack16<T>>(plan, is_periodic);
+    }
+    if const { size_of::<T::Coarse>() < size_of::<T>() } && plan.sweep_lanes > plan.gather_lanes {
+        return match plan.gather_lanes {
+            4 => searcher_in::<T, T::Pack4, Pack16<T>>(plan, is_periodic),
+            _ => searcher_in::<T, T::Pack8, Pack16<T>>(plan, is_periodic),
+        };
+    }
+    match plan.gather_lanes {
+        1 => searcher_in::<T, T, T::Coarse>(plan, is_periodic),
+        4 => searcher_in::<T, T::Pack4, Pack4<T>>(plan, is_periodic),
+        _ => searcher_in::<T, T::Pack8, Pack8<T>>(plan, is_periodic),
     }
 }
 
@@ -208,10 +232,10 @@ where
     C: Lane<Scalar = T::Coarse>,
 {
     match (plan.has_field, is_periodic) {
-        (false, false) => EventDriven::search_open::<L, C, Coasting>,
-        (false, true) => EventDriven::search_periodic::<L, C, Coasting>,
-        (true, false) => EventDriven::search_open::<L, C, VelocityVerlet>,
-        (true, true) => EventDriven::search_periodic::<L, C, VelocityVerlet>,
+        (false, false) => search_open::<T, L, C, Coasting>,
+        (false, true) => search_periodic::<T, L, C, Coasting>,
+        (true, false) => search_open::<T, L, C, VelocityVerlet>,
+        (true, true) => search_periodic::<T, L, C, VelocityVerlet>,
     }
 }
 

@@ -15,9 +15,9 @@ use crate::real::Real;
 pub(super) struct Contact<T> {
     /// Rank among the contacts of one time.
     pub rank: Rank,
-    /// The place of the first body.
+    /// The slot of the first body.
     pub a: u32,
-    /// The place of the second body, or the feature.
+    /// The slot of the second body, or the feature.
     pub b: u32,
     /// Time from the contact to the end of the step; 0 at its end.
     pub ago: T,
@@ -62,9 +62,9 @@ impl<T: Real> Contact<T> {
 /// Takes contacts out in rounds that share no body.
 #[derive(Debug)]
 pub(super) struct Rounds {
-    /// The round in which a body, by place, was last blocked.
+    /// The round in which a body, by slot, was last blocked.
     blocked: Vec<u32>,
-    /// The round in which a body, by place, last took part.
+    /// The round in which a body, by slot, last took part.
     struck: Vec<u32>,
     round: u32,
 }
@@ -98,10 +98,10 @@ impl Rounds {
         });
     }
 
-    /// Whether the body at a place took part in the round just taken.
+    /// Whether the body at a slot took part in the round just taken.
     #[inline]
-    pub fn is_struck(&self, place: u32) -> bool {
-        self.struck[place as usize] == self.round
+    pub fn is_struck(&self, slot: u32) -> bool {
+        self.struck[slot as usize] == self.round
     }
 
     /// The bytes of the marks.

@@ -5,7 +5,7 @@ use super::narrow::{WIDEST, gather, offset};
 use super::path::Path;
 use super::state::State;
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Party, collide};
+use crate::contact::{Impulse, Laws, Party, collide};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::space::Space;
@@ -51,33 +51,34 @@ impl<T: Real> Outcome<T> {
 
 /// How the contacts of a scene are worked out; chosen once by the plan.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Impacts<S> {
+pub(super) struct Impacts<S, W> {
     pub space: S,
+    pub laws: W,
     /// Whether contacts take effect at their own time, not at the step's end.
     pub within_step: bool,
 }
 
-/// The places of up to a pack's bodies, and their indices in the scene.
-struct Places {
-    places: [u32; WIDEST],
+/// The slots of up to a pack's bodies, and their indices in the scene.
+struct Slots {
+    slots: [u32; WIDEST],
     indices: [u32; WIDEST],
 }
 
-impl Places {
+impl Slots {
     #[inline(always)]
-    fn new<T: Real>(state: &State<T>, width: usize, place: impl Fn(usize) -> u32) -> Self {
-        let mut these = Self { places: [0; WIDEST], indices: [0; WIDEST] };
+    fn new<T: Real>(state: &State<T>, width: usize, slot: impl Fn(usize) -> u32) -> Self {
+        let mut these = Self { slots: [0; WIDEST], indices: [0; WIDEST] };
         for k in 0..width {
-            these.places[k] = place(k);
-            these.indices[k] = state.index[place(k) as usize];
+            these.slots[k] = slot(k);
+            these.indices[k] = state.index[slot(k) as usize];
         }
         these
     }
 }
 
-impl<S> Impacts<S> {
+impl<S, W> Impacts<S, W> {
     /// The impulses of contacts between bodies.
-    pub fn pairs<L, T, const ROUGH: bool>(
+    pub fn pairs<L, T>(
         &self,
         state: &State<T>,
         contacts: &[Contact<T>],
@@ -86,20 +87,21 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
         let whole = contacts.len() - contacts.len() % L::WIDTH;
         for start in (0..whole).step_by(L::WIDTH) {
             let range = start..start + L::WIDTH;
             let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
-            self.pack_of_pairs::<L, T, ROUGH>(state, now, after);
+            self.pack_of_pairs::<L, T>(state, now, after);
         }
         for k in whole..contacts.len() {
-            self.pack_of_pairs::<T, T, ROUGH>(state, &contacts[k..=k], &mut outcomes[k..=k]);
+            self.pack_of_pairs::<T, T>(state, &contacts[k..=k], &mut outcomes[k..=k]);
         }
     }
 
     #[inline(never)]
-    fn pack_of_pairs<L, T, const ROUGH: bool>(
+    fn pack_of_pairs<L, T>(
         &self,
         state: &State<T>,
         contacts: &[Contact<T>],
@@ -108,12 +110,13 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
-        let first = Places::new(state, L::WIDTH, |k| contacts[k].a);
-        let second = Places::new(state, L::WIDTH, |k| contacts[k].b);
-        let mut a = party::<L, T, ROUGH>(state, &first);
-        let mut b = party::<L, T, ROUGH>(state, &second);
-        let mut offset = offset::<L, T, S>(state, self.space, &first.places, &second.places);
+        let first = Slots::new(state, L::WIDTH, |k| contacts[k].a);
+        let second = Slots::new(state, L::WIDTH, |k| contacts[k].b);
+        let mut a = party::<L, T, W>(state, &first);
+        let mut b = party::<L, T, W>(state, &second);
+        let mut offset = offset::<L, T, S>(state, self.space, &first.slots, &second.slots);
         if self.within_step {
             offset -= (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
         }
@@ -123,19 +126,20 @@ impl<S> Impacts<S> {
                 b.share = L::ratio(1, 2);
             }
             PerBody::Each(radius) => {
-                let first = L::gather(radius, &first.places);
-                let second = L::gather(radius, &second.places);
+                let first = L::gather(radius, &first.slots);
+                let second = L::gather(radius, &second.slots);
                 let reach = first + second;
                 a.share = first / reach;
                 b.share = second / reach;
             }
         }
-        let impulse = collide::<L, ROUGH>(offset, &mut a, &mut b);
+        let law = self.laws.between(one_material);
+        let impulse = collide(law, offset, &mut a, &mut b);
         write(outcomes, offset, impulse, a, b);
     }
 
     /// The impulses of contacts of bodies with one fixed feature.
-    pub fn surroundings<L, T, const ROUGH: bool>(
+    pub fn surroundings<L, T>(
         &self,
         state: &State<T>,
         path: &Path<T>,
@@ -146,21 +150,22 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
         let whole = contacts.len() - contacts.len() % L::WIDTH;
         for start in (0..whole).step_by(L::WIDTH) {
             let range = start..start + L::WIDTH;
             let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
-            self.pack_at_feature::<L, T, ROUGH>(state, path, feature, now, after);
+            self.pack_at_feature::<L, T>(state, path, feature, now, after);
         }
         for k in whole..contacts.len() {
             let (now, after) = (&contacts[k..=k], &mut outcomes[k..=k]);
-            self.pack_at_feature::<T, T, ROUGH>(state, path, feature, now, after);
+            self.pack_at_feature::<T, T>(state, path, feature, now, after);
         }
     }
 
     #[inline(never)]
-    fn pack_at_feature<L, T, const ROUGH: bool>(
+    fn pack_at_feature<L, T>(
         &self,
         state: &State<T>,
         path: &Path<T>,
@@ -171,11 +176,12 @@ impl<S> Impacts<S> {
         L: Lane<Scalar = T>,
         T: Real,
         S: Space<T>,
+        W: Laws<T>,
     {
-        let places = Places::new(state, L::WIDTH, |k| contacts[k].a);
-        let mut a = party::<L, T, ROUGH>(state, &places);
+        let slots = Slots::new(state, L::WIDTH, |k| contacts[k].a);
+        let mut a = party::<L, T, W>(state, &slots);
         a.share = L::ONE;
-        let mut center = gather::<L>(&state.position, &places.places);
+        let mut center = gather::<L>(&state.position, &slots.slots);
         let at_end = a.velocity;
         if self.within_step {
             let ago = L::from_fn(|k| contacts[k].ago);
@@ -186,10 +192,11 @@ impl<S> Impacts<S> {
         let at_contact = a.velocity;
         let radius = match &state.radius {
             PerBody::Same(radius) => L::splat(*radius),
-            PerBody::Each(radius) => L::gather(radius, &places.places),
+            PerBody::Each(radius) => L::gather(radius, &slots.slots),
         };
         let arm = feature.clearance(center, radius).arm;
-        let impulse = collide::<L, ROUGH>(arm, &mut a, &mut Party::immovable());
+        let law = self.laws.between(one_material);
+        let impulse = collide(law, arm, &mut a, &mut Party::immovable());
         if self.within_step {
             // The rest of the step adds what the field does, as it did before.
             a.velocity =
@@ -199,22 +206,28 @@ impl<S> Impacts<S> {
     }
 }
 
-/// The bodies at some places, their shares of the offset still open.
+/// A scene has one material.
+fn one_material(_: usize) -> [u32; 2] {
+    [0; 2]
+}
+
+/// The bodies at some slots, their shares of the offset still open.
 #[inline(always)]
-fn party<L, T, const ROUGH: bool>(state: &State<T>, places: &Places) -> Party<L>
+fn party<L, T, W>(state: &State<T>, slots: &Slots) -> Party<L>
 where
     L: Lane<Scalar = T>,
     T: Real,
+    W: Laws<T>,
 {
     let cold = |figure: &PerBody<T>| match figure {
         PerBody::Same(value) => L::splat(*value),
-        PerBody::Each(column) => L::gather(column, &places.indices),
+        PerBody::Each(column) => L::gather(column, &slots.indices),
     };
     Party {
-        velocity: gather(&state.velocity, &places.places),
-        spin: if ROUGH { gather(&state.spin, &places.indices) } else { Vec3::ZERO },
+        velocity: gather(&state.velocity, &slots.slots),
+        spin: if W::CHANGES_SPINS { gather(&state.spin, &slots.indices) } else { Vec3::ZERO },
         inverse_mass: cold(&state.inverse_mass),
-        inverse_inertia: if ROUGH { cold(&state.inverse_inertia) } else { L::ZERO },
+        inverse_inertia: if W::CHANGES_SPINS { cold(&state.inverse_inertia) } else { L::ZERO },
         share: L::ZERO,
     }
 }

@@ -15,9 +15,9 @@ use crate::vec3::Vec3;
 /// The widest lane.
 pub(super) const WIDEST: usize = 16;
 
-/// How contacts are told at the end of a step of flight.
+/// How contacts are found at the end of a step of flight.
 pub(super) trait Detection<T: Real>: Copy + Send + Sync {
-    /// Which of the pairs at places `a` and `b` touch, and how long ago.
+    /// Which of the pairs at slots `a` and `b` touch, and how long ago.
     fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
         self,
         state: &State<T>,
@@ -27,7 +27,7 @@ pub(super) trait Detection<T: Real>: Copy + Send + Sync {
         b: &[u32],
     ) -> (L::Mask, L);
 
-    /// Which of the bodies at these places touch the feature, and how long ago.
+    /// Which of the bodies at these slots touch the feature, and how long ago.
     fn surroundings<L: Lane<Scalar = T>, R: Figure<T>>(
         self,
         state: &State<T>,
@@ -217,7 +217,7 @@ fn sweep_surroundings<L, T, D, R>(
     }
 }
 
-/// The places of two bodies, the one with the lesser index first, and the rank
+/// The slots of two bodies, the one with the lesser index first, and the rank
 /// of their contact.
 #[inline]
 fn in_order<T: Real>(state: &State<T>, a: u32, b: u32) -> (u32, u32, Rank) {
@@ -254,11 +254,11 @@ where
     space.nearest(gather::<L>(&state.position, a) - gather::<L>(&state.position, b))
 }
 
-/// Three columns' elements at some places.
+/// Three columns' elements at some slots.
 #[inline(always)]
 pub(super) fn gather<L: Lane>(
     columns: &crate::bodies::Columns3<L::Scalar>,
-    places: &[u32],
+    slots: &[u32],
 ) -> Vec3<L> {
-    Vec3::gather([&columns[0], &columns[1], &columns[2]], places)
+    Vec3::gather([&columns[0], &columns[1], &columns[2]], slots)
 }

@@ -1,11 +1,10 @@
 //! Orientations: since when each body has been turning with its present spin.
 
-use super::state::State;
 use crate::column::Column;
 use crate::engine::plan::Turning;
 use crate::real::Real;
 
-/// Steps after which the counters of all bodies start anew.
+/// Steps after which the counters of all bodies start again.
 const COUNTED: u64 = 1 << 31;
 
 /// When the stored orientations were true.
@@ -45,30 +44,34 @@ impl<T: Real> Orientations<T> {
         }
     }
 
-    /// Brings a body up to date before its spin changes.
+    /// Whether contacts change spins, so that each body has a time of its own.
+    pub fn is_counted(&self) -> bool {
+        self.turning == Turning::FromLastContact
+    }
+
+    /// Notes that the orientation stored for a body is that of a time `ago` before
+    /// the end of step `steps`.
     #[inline]
-    pub fn catch_up(&mut self, state: &mut State<T>, index: usize, steps: u64, dt: T, ago: T) {
-        if self.turning == Turning::FromLastContact {
-            state.turn(index, self.since(index, steps, dt, ago));
-            self.step[index] = (steps - self.counted_from) as u32;
-            if let Some(column) = &mut self.ago {
-                column[index] = ago;
-            }
+    pub fn mark(&mut self, index: usize, steps: u64, ago: T) {
+        self.step[index] = (steps - self.counted_from) as u32;
+        if let Some(column) = &mut self.ago {
+            column[index] = ago;
         }
     }
 
-    /// Starts the counters anew before they overflow.
-    pub fn keep_count(&mut self, state: &mut State<T>, steps: u64, dt: T) {
-        if steps - self.counted_from >= COUNTED && self.turning == Turning::FromLastContact {
-            for index in 0..self.step.len() {
-                state.turn(index, self.since(index, steps, dt, T::ZERO));
-                self.step[index] = 0;
-                if let Some(column) = &mut self.ago {
-                    column[index] = T::ZERO;
-                }
-            }
-            self.counted_from = steps;
+    /// Whether the counters have to start again before they overflow.
+    pub fn is_full(&self, steps: u64) -> bool {
+        self.is_counted() && steps - self.counted_from >= COUNTED
+    }
+
+    /// Starts the counters again: all stored orientations are those of the end of
+    /// step `steps`.
+    pub fn restart(&mut self, steps: u64) {
+        self.step.fill(0);
+        if let Some(column) = &mut self.ago {
+            column.fill(T::ZERO);
         }
+        self.counted_from = steps;
     }
 
     /// The bytes of the marks.

@@ -1,7 +1,9 @@
 //! State: the bodies as the stepped engine keeps them.
 
+use super::orientations::Orientations;
 use crate::bodies::{Bodies, Columns3, PerBody, at};
 use crate::column::Column;
+use crate::engine::plan::Turning;
 use crate::mat3::Mat3;
 use crate::motion::rotation::turned;
 use crate::real::Real;
@@ -14,18 +16,18 @@ use crate::workers::Workers;
 /// Bodies reordered as one piece of work.
 const REORDERED: usize = 1 << 14;
 
-/// The hot figures in the order of *places*, which the broad phase renews so
+/// The hot figures in the order of *slots*, which the broad phase renews so
 /// that neighbours in space are neighbours in memory; the cold ones, read only
 /// at a contact, in the scene's order.
 #[derive(Debug)]
 pub(super) struct State<T: Real> {
-    /// Centres by place, length.
+    /// Centres by slot, length.
     pub position: Columns3<T>,
-    /// Velocities by place, length per time.
+    /// Velocities by slot, length per time.
     pub velocity: Columns3<T>,
-    /// Radii by place, length.
+    /// Radii by slot, length.
     pub radius: PerBody<T>,
-    /// The scene's index of the body at each place.
+    /// The scene's index of the body at each slot.
     pub index: Vec<u32>,
     /// Angular velocities by index, rad per time.
     pub spin: Columns3<T>,
@@ -40,13 +42,17 @@ pub(super) struct State<T: Real> {
     pub inertia: PerBody<T>,
     /// `1/I` by index.
     pub inverse_inertia: PerBody<T>,
+    orientations: Orientations<T>,
     spare: Column<T>,
 }
 
 impl<T: Real> State<T> {
-    pub fn new(bodies: Bodies<T>) -> Self {
+    /// The bodies at the start. Where contacts take effect within a step, the times
+    /// of orientations lie within one too.
+    pub fn new(bodies: Bodies<T>, turning: Turning, is_within_step: bool) -> Self {
         let len = bodies.len();
-        Self {
+        let mut state = Self {
+            orientations: Orientations::new(turning, len, is_within_step),
             index: (0..len as u32).collect(),
             inverse_mass: bodies.mass.map(|mass| T::ONE / mass),
             inverse_inertia: bodies.inertia.map(|inertia| T::ONE / inertia),
@@ -58,10 +64,14 @@ impl<T: Real> State<T> {
             mass: bodies.mass,
             inertia: bodies.inertia,
             spare: Column::new(len, T::ZERO),
+        };
+        if matches!(turning, Turning::FromLastContact | Turning::EachStep) {
+            state.own_orientations();
         }
+        state
     }
 
-    /// Puts the body at place `order[k]` to place `k`.
+    /// Puts the body at slot `order[k]` to slot `k`.
     pub fn reorder(&mut self, order: &[u32], workers: &Workers) {
         let hot = self.position.iter_mut().chain(&mut self.velocity);
         let radius = match &mut self.radius {
@@ -71,9 +81,9 @@ impl<T: Real> State<T> {
         for column in hot.chain(radius) {
             let mut chunks: Vec<_> =
                 self.spare.chunks_mut(REORDERED).zip(order.chunks(REORDERED)).collect();
-            workers.each(&mut chunks, |(places, order)| {
-                for (place, &from) in places.iter_mut().zip(*order) {
-                    *place = column[from as usize];
+            workers.each(&mut chunks, |(slots, order)| {
+                for (slot, &from) in slots.iter_mut().zip(*order) {
+                    *slot = column[from as usize];
                 }
             });
             core::mem::swap(column, &mut self.spare);
@@ -99,16 +109,15 @@ impl<T: Real> State<T> {
     }
 
     /// Gives every body an orientation of its own.
-    pub fn own_orientations(&mut self) {
+    fn own_orientations(&mut self) {
         let len = self.index.len();
         let rows = Mat3::<T>::IDENTITY.rows();
         self.orientation
             .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
     }
 
-    /// The bodies in the scene's order, with orientations turned on by the
-    /// time that `since` gives for each index.
-    pub fn bodies(&self, since: impl Fn(usize) -> T) -> Bodies<T> {
+    /// The bodies in the scene's order at the end of step `steps`.
+    pub fn bodies(&self, steps: u64, dt: T) -> Bodies<T> {
         let len = self.index.len();
         let ordered = |columns: &Columns3<T>| -> Columns3<T> {
             core::array::from_fn(|axis| {
@@ -142,7 +151,8 @@ impl<T: Real> State<T> {
         if is_turning || self.orientation.is_some() {
             let mut rows = Box::new(core::array::from_fn(|_| Column::new(len, T::ZERO)));
             for index in 0..len {
-                let turned = self.turned(index, since(index));
+                let since = self.orientations.since(index, steps, dt, T::ZERO);
+                let turned = self.turned(index, since);
                 set_rows(&mut rows, index, turned);
             }
             bodies.orientation = Some(rows);
@@ -159,8 +169,28 @@ impl<T: Real> State<T> {
         turned(stored, at(&self.spin, index), time)
     }
 
+    /// Brings the orientation of a body up to a time `ago` before the end of step
+    /// `steps`, before its spin changes.
+    #[inline]
+    pub fn catch_up(&mut self, index: usize, steps: u64, dt: T, ago: T) {
+        if self.orientations.is_counted() {
+            self.turn(index, self.orientations.since(index, steps, dt, ago));
+            self.orientations.mark(index, steps, ago);
+        }
+    }
+
+    /// Starts the counters of orientations again before they overflow.
+    pub fn keep_count(&mut self, steps: u64, dt: T) {
+        if self.orientations.is_full(steps) {
+            for index in 0..self.index.len() {
+                self.turn(index, self.orientations.since(index, steps, dt, T::ZERO));
+            }
+            self.orientations.restart(steps);
+        }
+    }
+
     /// Turns the stored orientation of a body on by a time of constant spin.
-    pub fn turn(&mut self, index: usize, time: T) {
+    fn turn(&mut self, index: usize, time: T) {
         let turned = self.turned(index, time);
         if let Some(rows) = &mut self.orientation {
             set_rows(rows, index, turned);
@@ -179,6 +209,7 @@ impl<T: Real> State<T> {
             + self.inverse_mass.bytes()
             + self.inertia.bytes()
             + self.inverse_inertia.bytes()
+            + self.orientations.bytes()
             + self.spare.bytes()
             + size_of_val(self.index.as_slice())
     }

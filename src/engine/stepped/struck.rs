@@ -11,28 +11,35 @@ pub(super) struct Again;
 /// body's path is not the one that ends where the body now is.
 #[derive(Debug)]
 pub(super) struct Struck<T> {
-    /// By place: the time of the last contact before the end of the step, and
+    /// By slot: the time of the last contact before the end of the step, and
     /// its rank.
     last: Vec<Option<(T, Rank)>>,
-    places: Vec<u32>,
+    slots: Vec<u32>,
 }
 
 impl<T: Real> Struck<T> {
     pub fn new(len: usize) -> Self {
-        Self { last: vec![None; len], places: Vec::new() }
+        Self { last: vec![None; len], slots: Vec::new() }
     }
 
     /// Forgets the step.
     pub fn clear(&mut self) {
-        for place in self.places.drain(..) {
-            self.last[place as usize] = None;
+        for slot in self.slots.drain(..) {
+            self.last[slot as usize] = None;
         }
     }
 
-    /// Notes that a body had a contact.
-    pub fn strike(&mut self, place: u32, contact: &Contact<T>) {
-        self.last[place as usize] = Some((contact.ago, contact.rank));
-        self.places.push(place);
+    /// Notes that the bodies of a contact had it.
+    pub fn strike(&mut self, contact: &Contact<T>) {
+        self.strike_one(contact.a, contact);
+        if contact.rank.is_pair() {
+            self.strike_one(contact.b, contact);
+        }
+    }
+
+    fn strike_one(&mut self, slot: u32, contact: &Contact<T>) {
+        self.last[slot as usize] = Some((contact.ago, contact.rank));
+        self.slots.push(slot);
     }
 
     /// The last contact of a contact's bodies, by its time before the end of the

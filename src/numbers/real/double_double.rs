@@ -262,6 +262,12 @@ impl Real for DoubleDouble {
         self.0.0
     }
 
+    fn cast<B: Real>(self) -> B {
+        let high = B::from_f64(self.high());
+        // Nothing to add keeps the sign of −0, and infinity.
+        if self.low() == 0.0 || self.low().is_nan() { high } else { high + B::from_f64(self.low()) }
+    }
+
     fn whole_part(self) -> i64 {
         self.0.0 as i64
     }

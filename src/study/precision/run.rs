@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::order::Seen;
 use crate::bodies::Bodies;
-use crate::engine::{Event, Execution, World};
+use crate::engine::{Compiled, Event, Execution, World};
 use crate::lane::Lane;
 use crate::observe::Temperature;
 use crate::real::{DoubleDouble, Real};
@@ -13,7 +13,7 @@ use crate::scene::{Encounters, SceneFile};
 use crate::space::PeriodicBox;
 use crate::study::StudyError;
 use crate::study::clock::outlook;
-use crate::study::invariants::{Invariants, exact, exact_vector};
+use crate::study::invariants::Invariants;
 use crate::vec3::Vec3;
 
 /// Steps or collisions between two looks at the way. More of them in one go save
@@ -76,7 +76,7 @@ pub(super) struct Run<T: Real> {
     pub(super) has_surroundings: bool,
 }
 
-impl<T: Real> Run<T> {
+impl<T: Compiled> Run<T> {
     /// At the start. All speeds of run `number` are `f = 1 + number/64` times
     /// those of the scene, and gravity `f²` times: the same paths at another
     /// pace, with other roundings.
@@ -90,11 +90,12 @@ impl<T: Real> Run<T> {
         let factor = T::ONE + T::whole(number as i32) / T::whole(SPEEDS);
         scene.bodies.scale_motion(factor);
         scene.gravity = scene.gravity * (factor * factor);
-        let gravity = exact_vector(scene.gravity);
+        let gravity = scene.gravity.cast::<DoubleDouble>();
         let (periodic, radius) = (scene.periodic, scene.bodies.radius.greatest().to_f64());
         let has_surroundings =
             scene.encounters != Encounters::None && !scene.surroundings.is_empty();
-        let masses = (0..scene.bodies.len()).map(|index| exact(scene.bodies.mass.of(index)));
+        let masses =
+            (0..scene.bodies.len()).map(|index| scene.bodies.mass.of(index).cast::<DoubleDouble>());
         let mass = masses.fold(DoubleDouble::ZERO, |sum, mass| sum + mass);
         let start = Invariants::of(&scene.bodies, gravity);
         // Other runs are made at the same time.
@@ -174,7 +175,12 @@ impl<T: Real> Run<T> {
 
 impl Track {
     /// A whole run.
-    pub(super) fn of<T: Real>(file: &SceneFile, duration: f64, samples: u32, number: u32) -> Self {
+    pub(super) fn of<T: Compiled>(
+        file: &SceneFile,
+        duration: f64,
+        samples: u32,
+        number: u32,
+    ) -> Self {
         let mut track = Self::default();
         let mut run = match Run::<T>::new(file, duration, samples, number) {
             Ok(run) => run,

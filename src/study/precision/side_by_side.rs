@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::order::{Comparer, Departures, Seen};
 use super::run::{Run, Track, finite};
+use crate::engine::Compiled;
 use crate::lane::Lane;
-use crate::real::{DoubleDouble, Real};
+use crate::real::DoubleDouble;
 use crate::scene::SceneFile;
 use crate::study::StudyError;
 use crate::study::deviation::Truth;
@@ -48,13 +49,13 @@ pub struct Comparison {
 }
 
 /// One of the others under way.
-struct Companion<T: Real> {
+struct Companion<T: Compiled> {
     run: Option<Run<T>>,
     comparer: Comparer,
     comparison: Comparison,
 }
 
-impl<T: Real> Companion<T> {
+impl<T: Compiled> Companion<T> {
     fn new(run: Result<Run<T>, StudyError>, bodies: usize) -> Self {
         let mut comparison = Comparison::default();
         let run = run.map_err(|error| comparison.track.stopped = Some(error.to_string())).ok();
@@ -112,7 +113,7 @@ impl SideBySide {
             let now = Truth::of(run.world(), run.gravity, run.periodic);
             truth.samples.push(run.sample(&now.bodies));
             for index in 0..bodies {
-                let place = now.bodies.position_of(index).to_array().map(DoubleDouble::high);
+                let place = now.bodies.position_of(index).cast::<f64>().to_array();
                 for (k, x) in place.into_iter().enumerate() {
                     corners[0][k] = corners[0][k].min(x);
                     corners[1][k] = corners[1][k].max(x);

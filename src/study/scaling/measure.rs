@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::{Execution, World};
+use crate::engine::{Compiled, Execution, World};
 use crate::observe::{Totals, state_hash};
 use crate::real::Real;
 use crate::scene::EngineKind;
@@ -79,7 +79,7 @@ impl Task<'_> {
         }
     }
 
-    fn probed_in<T: Real>(&self) -> Result<Probe, StudyError> {
+    fn probed_in<T: Compiled>(&self) -> Result<Probe, StudyError> {
         let (scene, build) = seconds(|| self.file.build::<T>());
         let mut world = World::new(scene?, self.variants[0])?;
         let bodies = world.plan().bodies as f64;
@@ -105,7 +105,7 @@ impl Task<'_> {
     }
 
     /// Runs all variants.
-    pub(super) fn measure<T: Real>(&self) -> Result<Measured, StudyError> {
+    pub(super) fn measure<T: Compiled>(&self) -> Result<Measured, StudyError> {
         let knows_peak = forget_peak();
         let mut first = World::new(self.file.build::<T>()?, self.variants[0])?;
         let bodies = first.plan().bodies as u64;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Figure;
 use super::chart::Picture;
+use crate::engine::Compiled;
 use crate::lane::Lane;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::Precision;
@@ -111,7 +112,7 @@ pub struct Case {
 }
 
 /// A precision that is studied, with a better one to judge it by.
-pub(super) trait Studied: Real {
+pub(super) trait Studied: Compiled {
     /// Its name.
     const PRECISION: Precision;
     /// A precision with twice the digits.
@@ -126,16 +127,6 @@ impl Studied for f32 {
 impl Studied for f64 {
     const PRECISION: Precision = Precision::F64;
     type Judge = DoubleDouble;
-}
-
-/// The same number in the judging precision.
-pub(super) fn exact<T: Studied>(value: T) -> T::Judge {
-    T::Judge::from_f64(value.to_f64())
-}
-
-/// The same vector in the judging precision.
-pub(super) fn exact_vector<T: Studied>(vector: Vec3<T>) -> Vec3<T::Judge> {
-    vector.to_array().map(exact).into()
 }
 
 /// A vector in the studied precision.

@@ -1,6 +1,6 @@
 //! Newton's cradle of a thousand balls.
 
-use super::case::{Case, Extent, Findings, Studied, Trial, exact, greatest, in_epsilon, trial};
+use super::case::{Case, Extent, Findings, Studied, Trial, greatest, in_epsilon, trial};
 use super::{Figure, StudyError};
 use crate::engine::{Execution, World};
 use crate::lane::Lane;
@@ -59,7 +59,8 @@ fn cradle<T: Studied>(row: Row) -> Trial {
     trial::<T, _>(row.name, 0.5, move || {
         let time = row.balls as f64 * row.gap + 4.0;
         let scene = row.scene::<T>()?;
-        let masses: Vec<_> = (0..row.balls).map(|k| exact(scene.bodies.mass.of(k))).collect();
+        let masses: Vec<T::Judge> =
+            (0..row.balls).map(|k| scene.bodies.mass.of(k).cast()).collect();
         let mut world = World::new(scene, Execution { threads: 1, ..Execution::default() })?;
         let length = world.length(time);
         while !world.advance(length, length, 1 << 12, None)? {}

@@ -4,7 +4,7 @@ use super::StudyError;
 use super::case::{Studied, greatest, in_epsilon};
 use crate::bodies::Bodies;
 use crate::engine::EventDriven;
-use crate::observe::{Energy, Momentum, total_mass, wide};
+use crate::observe::{Energy, Momentum, total_mass};
 use crate::scene::Scene;
 use crate::space::{PeriodicBox, Space};
 use crate::study::invariants::energy_change;
@@ -85,7 +85,7 @@ pub(super) fn distances<T: Studied>(
 ) -> Vec<f64> {
     let distance = |k| {
         let offset = now.position_of(k) - before.position_of(k);
-        wide(space.map_or(offset, |space| space.nearest(offset))).length()
+        space.map_or(offset, |space| space.nearest(offset)).cast::<f64>().length()
     };
     (0..now.len()).map(distance).collect()
 }

@@ -1,8 +1,8 @@
 //! Two spheres that meet, and how they should part.
 
 use super::StudyError;
-use super::case::{Random, Studied, exact, exact_vector, greatest};
-use crate::contact::{Party, Surface, collide, contact_time};
+use super::case::{Random, Studied, greatest};
+use crate::contact::{Party, Rough, Smooth, Surface, collide, contact_time};
 use crate::engine::{Event, EventDriven, Partner};
 use crate::lane::Lane;
 use crate::real::Real;
@@ -83,18 +83,18 @@ struct Encounter<J> {
 /// The two bodies of a scene, whose numbers are taken as exact.
 fn encounter<T: Studied>(scene: &Scene<T>) -> Encounter<T::Judge> {
     let bodies = &scene.bodies;
-    let radii = [0, 1].map(|k| exact(bodies.radius.of(k)));
+    let radii = [0, 1].map(|k| bodies.radius.of(k).cast::<T::Judge>());
     let one = T::Judge::ONE;
     let parties = [0, 1].map(|k| Party {
-        velocity: exact_vector(bodies.velocity_of(k)),
-        spin: exact_vector(bodies.spin_of(k)),
-        inverse_mass: one / exact(bodies.mass.of(k)),
-        inverse_inertia: one / exact(bodies.inertia.of(k)),
+        velocity: bodies.velocity_of(k).cast(),
+        spin: bodies.spin_of(k).cast(),
+        inverse_mass: one / bodies.mass.of(k).cast(),
+        inverse_inertia: one / bodies.inertia.of(k).cast(),
         share: radii[k] / (radii[0] + radii[1]),
     });
     Encounter {
         radii,
-        offset: exact_vector(bodies.position_of(0)) - exact_vector(bodies.position_of(1)),
+        offset: bodies.position_of(0).cast() - bodies.position_of(1).cast(),
         relative: parties[0].velocity - parties[1].velocity,
         surface: scene.surface,
         parties,
@@ -106,9 +106,9 @@ impl<J: Real> Encounter<J> {
     fn parting(&self, offset: Vec3<J>) -> Parting<J> {
         let [mut a, mut b] = self.parties;
         if self.surface == Surface::Rough {
-            collide::<J, true>(offset, &mut a, &mut b);
+            collide(Rough, offset, &mut a, &mut b);
         } else {
-            collide::<J, false>(offset, &mut a, &mut b);
+            collide(Smooth, offset, &mut a, &mut b);
         }
         let surface = [a.spin * self.radii[0], b.spin * self.radii[1]];
         Parting { velocity: [a.velocity, b.velocity], surface }
@@ -149,8 +149,8 @@ pub(super) fn touching<T: Studied>(scene: &Scene<T>) -> Parting<T::Judge> {
 pub(super) fn untouched<T: Studied>(scene: &Scene<T>) -> Parting<T::Judge> {
     let bodies = &scene.bodies;
     Parting {
-        velocity: [0, 1].map(|k| exact_vector(bodies.velocity_of(k))),
-        surface: [0, 1].map(|k| exact_vector(bodies.spin_of(k)) * exact(bodies.radius.of(k))),
+        velocity: [0, 1].map(|k| bodies.velocity_of(k).cast()),
+        surface: [0, 1].map(|k| bodies.spin_of(k).cast() * bodies.radius.of(k).cast()),
     }
 }
 
@@ -159,14 +159,14 @@ pub(super) fn found<T: Studied>(
     scene: Scene<T>,
     duration: f64,
 ) -> Result<Option<Parting<T::Judge>>, StudyError> {
-    let radii = [0, 1].map(|k| exact(scene.bodies.radius.of(k)));
+    let radii = [0, 1].map(|k| scene.bodies.radius.of(k).cast::<T::Judge>());
     let mut world = EventDriven::new(scene)?;
     let mut parting = None;
     world.for_each_event(duration, |event: &Event<T>| {
         if let Partner::Body { velocity, spin, .. } = event.partner {
             parting = Some(Parting {
-                velocity: [event.velocity, velocity].map(exact_vector),
-                surface: [exact_vector(event.spin) * radii[0], exact_vector(spin) * radii[1]],
+                velocity: [event.velocity, velocity].map(Vec3::cast),
+                surface: [event.spin.cast() * radii[0], spin.cast() * radii[1]],
             });
         }
     })?;

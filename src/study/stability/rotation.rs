@@ -1,9 +1,7 @@
 //! Rotation in small steps: what becomes of an orientation.
 
 use super::Figure;
-use super::case::{
-    Case, Curve, Extent, Findings, Random, Studied, Trial, exact, exact_vector, greatest, trial,
-};
+use super::case::{Case, Curve, Extent, Findings, Random, Studied, Trial, greatest, trial};
 use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use super::orientation::{
     from_matrix, nearest_orthonormal, normalised, product, quaternion, to_matrix,
@@ -120,9 +118,8 @@ fn polar<T: Studied>(k: usize, steps: i32) -> Trial {
 /// An orientation and a spin of one radian per time, at random.
 fn start<T: Studied>(k: usize) -> (Mat3<T>, Vec3<T>) {
     let mut random = Random(100 + k as u64);
-    let rounded = |vector: Vec3<f64>| Vec3::from(vector.to_array().map(T::from_f64));
-    let m = reference_rotation(rounded(random.direction()), T::whole(3));
-    let spin: Vec3<T> = rounded(random.direction());
+    let m = reference_rotation(random.direction().cast(), T::whole(3));
+    let spin: Vec3<T> = random.direction().cast();
     (orthonormalised(m), spin * (T::ONE / spin.length()))
 }
 
@@ -144,8 +141,8 @@ fn errors<T: Studied>(
             let found = step(k);
             if is_looked_at {
                 let found = exact_matrix(found);
-                let time = exact(T::ratio(1, 100)) * T::Judge::whole(n);
-                let expected = reference_rotation(exact_vector(spin), time) * exact_matrix(m);
+                let time = T::ratio(1, 100).cast::<T::Judge>() * T::Judge::whole(n);
+                let expected = reference_rotation(spin.cast(), time) * exact_matrix(m);
                 worst[0] = greatest([worst[0], distance(found.transpose() * found)]);
                 worst[1] = greatest([worst[1], angle_between(found, expected)]);
             }
@@ -172,7 +169,7 @@ fn errors<T: Studied>(
 }
 
 fn exact_matrix<T: Studied>(m: Mat3<T>) -> Mat3<T::Judge> {
-    Mat3 { columns: m.columns.map(exact_vector) }
+    Mat3 { columns: m.columns.map(Vec3::cast) }
 }
 
 /// Greatest element of the difference from the identity.

@@ -1,7 +1,7 @@
 //! A superball between floor and ceiling: what a million bounces leave of it.
 
 use super::case::{
-    Case, Curve, Extent, Findings, Studied, Trial, exact, greatest, in_epsilon, ratio, t3, trial,
+    Case, Curve, Extent, Findings, Studied, Trial, greatest, in_epsilon, ratio, t3, trial,
 };
 use super::{Figure, StudyError};
 use crate::contact::Surface;
@@ -88,8 +88,8 @@ fn errors<T: Studied>(
         world.advance_until(n - world.collisions().total(), 4.0 * bounces as f64)?;
         let bodies = world.bodies();
         let side = if n % 2 == 0 { -one } else { one };
-        let spin = exact(bodies.spin_of(0).y) * T::Judge::from_f64(radius);
-        let (x, y) = (exact(bodies.velocity_of(0).x), side * root * spin);
+        let spin = bodies.spin_of(0).y.cast::<T::Judge>() * T::Judge::from_f64(radius);
+        let (x, y) = (bodies.velocity_of(0).x.cast::<T::Judge>(), side * root * spin);
         let size = (x * x + y * y).sqrt();
         // Sine of the angle from what it should be, which is small.
         let off = (x * turned.1 - y * turned.0) / size;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::method::{Method, Stepping};
 use super::reference::{Reference, collisions_of_a_body};
 use super::sweep::Sweep;
-use crate::engine::{EngineError, Execution, World};
+use crate::engine::{Compiled, EngineError, Execution, World};
 use crate::observe::{StateHash, state_hash};
 use crate::real::Real;
 use crate::scene::{Precision, Scene, SceneFile};
@@ -53,7 +53,7 @@ pub(super) fn measure(
     }
 }
 
-fn measure_in<T: Real>(
+fn measure_in<T: Compiled>(
     file: &SceneFile,
     method: &Method,
     sweep: &Sweep,
@@ -96,7 +96,7 @@ fn advance<T: Real>(world: &mut World<T>, method: &Method, stated: f64) -> Resul
 }
 
 /// The seconds from a scene to its end, whose bits have to be these.
-fn timed_run<T: Real>(
+fn timed_run<T: Compiled>(
     scene: &Scene<T>,
     method: &Method,
     end: f64,
@@ -128,7 +128,7 @@ pub(super) fn probe(file: &SceneFile, method: &Method, end: f64) -> Result<f64, 
     }
 }
 
-fn probe_in<T: Real>(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
+fn probe_in<T: Compiled>(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
     /// Seconds that are enough to tell.
     const ENOUGH: f64 = 0.002;
     let scene = method.scene::<T>(file, end)?;

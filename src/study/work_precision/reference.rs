@@ -1,7 +1,7 @@
 //! Reference: what the bodies of a scene should do, and how long that can be
 //! told.
 
-use crate::engine::{Execution, World};
+use crate::engine::{Compiled, Execution, World};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::StudyError;
@@ -49,7 +49,7 @@ struct Run<T: Real> {
     scene: Scene<T>,
 }
 
-impl<T: Real> Run<T> {
+impl<T: Compiled> Run<T> {
     fn new(scene: Scene<T>) -> Result<Self, StudyError> {
         Ok(Self { world: World::new(scene.clone(), Execution::default())?, scene })
     }
@@ -130,7 +130,7 @@ pub(super) fn length_scale<T: Real>(scene: &Scene<T>) -> f64 {
     if radius > 0.0 {
         return radius;
     }
-    let places = || (0..bodies.len()).map(|k| bodies.position_of(k).to_array().map(T::to_f64));
+    let places = || (0..bodies.len()).map(|k| bodies.position_of(k).cast().to_array());
     let middle = places().fold([0.0; 3], |sum, place| {
         core::array::from_fn(|k| sum[k] + place[k] / bodies.len() as f64)
     });

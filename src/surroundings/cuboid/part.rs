@@ -143,8 +143,8 @@ impl<T: Real> Part<T> {
     /// Only the part that the sphere is at can be in contact; behind another
     /// one, beyond the ends of its own, it has to come out first. At the seam
     /// of two parts it is at both. There the second one's gap is 0 as well,
-    /// lest a sphere that rises from the first by less than rounding sinks in
-    /// through the second.
+    /// so that a sphere that rises from the first by less than rounding does not
+    /// sink in through the second.
     fn start(&self, gap: T, slack: T) -> Start {
         if gap > slack {
             Start::Apart
@@ -223,7 +223,7 @@ impl<T: Real> Axis<T> {
     }
 
     /// Whether the centre will be between the ends, each moved out by `margin`;
-    /// also if rounding alone takes it out, lest a point slips in where two
+    /// also if rounding alone takes it out, so that no point slips in where two
     /// faces meet.
     fn is_between(&self, time: T, margin: T) -> bool {
         let margin = margin + self.rounding(time);

@@ -1,0 +1,102 @@
+//! Clock: how far time is, and whether it advances.
+
+use super::calendar::Turn;
+use crate::compensated::CompensatedSum;
+use crate::real::Real;
+
+/// Turns that may pass while time stands still, for scenes of few bodies.
+const PATIENCE: u64 = 1 << 20;
+
+/// Time, counted from the start of the present period. A restart file keeps all
+/// of it.
+#[derive(Clone, Debug)]
+pub(super) struct Clock<T> {
+    /// The present period's start, time.
+    origin: CompensatedSum,
+    /// Length of the present period, time.
+    pub period: T,
+    /// The square of the speed from which the period is too long.
+    pub too_fast: T,
+    /// Time of the last collision in this period.
+    pub last_collision: T,
+    /// Time that has been asked for, since the start of the run.
+    pub time: f64,
+    /// Turns taken in this period.
+    turns: u64,
+    /// Time has advanced when it is past this one.
+    progress: T,
+    /// Turns since it did.
+    standstill: u64,
+}
+
+impl<T: Real> Clock<T> {
+    /// The start of a run.
+    pub fn new() -> Self {
+        Self {
+            origin: CompensatedSum::default(),
+            period: T::ZERO,
+            too_fast: T::ZERO,
+            last_collision: T::ZERO,
+            time: 0.0,
+            turns: 0,
+            progress: T::ZERO,
+            standstill: 0,
+        }
+    }
+
+    /// Ends the present period at a time of it. Returns the turns in a time that
+    /// it had, if it had any.
+    pub fn end_period(&mut self, end: T) -> Option<f64> {
+        let rounded = end.to_f64();
+        self.origin.add(rounded);
+        // What a finer precision than `f64` has besides.
+        self.origin.add((end - T::from_f64(rounded)).to_f64());
+        self.last_collision = T::ZERO;
+        self.progress = T::ZERO;
+        let turns = core::mem::take(&mut self.turns);
+        (turns > 0 && end != T::ZERO).then(|| turns as f64 / end.to_f64())
+    }
+
+    /// The present period's start, time since the start of the run.
+    pub fn origin(&self) -> f64 {
+        self.origin.value()
+    }
+
+    /// A time since the start of the run, as one since the start of the present
+    /// period.
+    pub fn in_period(&self, time: f64) -> T {
+        T::from_f64(time - self.origin.value()) - T::from_f64(self.origin.remainder())
+    }
+
+    /// A time of the present period, as one since the start of the run.
+    pub fn since_start(&self, time: T) -> f64 {
+        self.origin.value() + time.to_f64()
+    }
+
+    /// Now, since the period's start.
+    pub fn now(&self) -> T {
+        self.in_period(self.time)
+    }
+
+    /// Counts a turn that is taken.
+    #[inline(always)]
+    pub fn count(&mut self) {
+        self.turns += 1;
+    }
+
+    /// Whether time still advances, a few turns without any forgiven for each of
+    /// the bodies; otherwise how many turns it has stood still.
+    #[inline(always)]
+    pub fn check_progress(&mut self, turn: Turn<T>, bodies: usize) -> Result<(), u64> {
+        if turn.time > self.progress {
+            self.progress = turn.time + self.period * (T::EPSILON * T::whole(64));
+            self.standstill = 0;
+            return Ok(());
+        }
+        self.standstill += 1;
+        if self.standstill <= PATIENCE + 64 * bodies as u64 {
+            return Ok(());
+        }
+        Err(self.standstill)
+    }
+}

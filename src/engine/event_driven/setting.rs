@@ -1,0 +1,109 @@
+//! Setting: what all workers read and none writes.
+
+use super::cells::{self, Cells};
+use super::near::{self, Near};
+use super::search::{Search, further, searcher};
+use crate::bodies::{Bodies, PerBody};
+use crate::column::Column;
+use crate::engine::plan::{Plan, Turning};
+use crate::real::Real;
+use crate::scene::Scene;
+use crate::space::{OpenSpace, PeriodicBox, Space};
+use crate::surroundings::{Feature, features_of};
+use crate::vec3::Vec3;
+
+/// The scene and its plan. All of it follows from the scene: a restart file
+/// keeps the scene instead.
+#[derive(Debug)]
+pub(super) struct Setting<T: Real> {
+    pub plan: Plan,
+    pub gravity: Vec3<T>,
+    pub periodic: Option<PeriodicBox<T>>,
+    pub features: Vec<Feature<T>>,
+    /// The part of the surroundings that each feature belongs to.
+    pub parts: Vec<u32>,
+    /// The periodic images of a feature.
+    pub images: Vec<Vec3<T>>,
+    /// The images of a pair besides the nearest one, and that one itself, in
+    /// whole boxes.
+    pub further: Vec<Vec3<T>>,
+    /// `further` in the coarse precision.
+    pub coarse_further: Vec<Vec3<T::Coarse>>,
+    pub near: Near,
+    pub has_cells: bool,
+    /// Looks for a body's contacts with others, in the plan's lanes.
+    pub search_bodies: Search<T>,
+    /// Mean distance of bodies or the greatest diameter, length.
+    pub spacing: T,
+
+    /// Masses, inertia and radii by index, and the start's spins and
+    /// orientations where contacts do not change them. Centres and velocities
+    /// are in the region.
+    pub bodies: Bodies<T>,
+    pub inverse_mass: PerBody<T>,
+    pub inverse_inertia: PerBody<T>,
+}
+
+impl<T: Real> Setting<T> {
+    /// What a scene and its plan say, and the grid of its cells, still empty.
+    pub fn new(scene: Scene<T>, plan: Plan) -> (Self, Cells<T>) {
+        let bodies = scene.bodies;
+        let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
+        let (features, parts) = features_of(met);
+        let images = scene.periodic.map_or_else(|| OpenSpace.images(), Space::images);
+        let len = bodies.len();
+        let radius = bodies.radius.greatest();
+        let interiors = scene.surroundings.iter().filter_map(|shape| shape.interior());
+        let grid = match scene.periodic {
+            Some(PeriodicBox { lower, upper }) => {
+                cells::Region { lower, upper, ends: cells::Ends::Joined }
+            }
+            None => near::region(
+                // Wide enough for cells that do not all neighbour each other.
+                radius * T::whole(9),
+                interiors.filter(|_| plan.features > 0),
+                &features,
+                (0..len).map(|index| bodies.position_of(index)),
+            ),
+        };
+        let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
+        let (cells, spacing) = Cells::fitting(grid, radius + radius, len, bounded);
+        let is_periodic = scene.periodic.is_some();
+        let near = Near::new(&features, &images, &cells, grid.ends, radius);
+        let setting = Self {
+            gravity: scene.gravity,
+            periodic: scene.periodic,
+            features,
+            parts,
+            images,
+            further: further(&cells, is_periodic),
+            coarse_further: further(&cells, is_periodic),
+            has_cells: plan.has_pairs || near.has_cells(),
+            near,
+            search_bodies: searcher(&plan, is_periodic),
+            spacing,
+            inverse_mass: bodies.mass.map(|mass| T::ONE / mass),
+            inverse_inertia: bodies.inertia.map(|inertia| T::ONE / inertia),
+            bodies,
+            plan,
+        };
+        (setting, cells)
+    }
+
+    /// Gives up what the region keeps now.
+    pub fn leave_to_region(&mut self) {
+        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
+        (self.bodies.position, self.bodies.velocity) = (nothing(), nothing());
+        if self.plan.turning == Turning::FromLastContact {
+            (self.bodies.spin, self.bodies.orientation) = (nothing(), None);
+        }
+    }
+
+    /// The bytes of memory that it holds.
+    pub fn bytes(&self) -> usize {
+        self.bodies.bytes()
+            + self.inverse_mass.bytes()
+            + self.inverse_inertia.bytes()
+            + self.near.bytes()
+    }
+}

@@ -1,0 +1,66 @@
+//! Interface: what both engines can do, whatever they are inside.
+//!
+//! A world holds its engine behind one of these traits. It is entered once a
+//! call, not once a collision, and no crate but this one compiles an engine.
+
+use core::fmt::Debug;
+
+use super::account::{Account, Effort};
+use super::{EngineError, Listener, Plan};
+use crate::bodies::Bodies;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// A scene in motion.
+pub trait Engine<T: Real>: Debug + Send + Sync {
+    /// What the scene needs.
+    fn plan(&self) -> &Plan;
+
+    /// The uniform acceleration, length per time².
+    fn gravity(&self) -> Vec3<T>;
+
+    /// Time since the start.
+    fn time(&self) -> f64;
+
+    /// What is added up over the collisions so far.
+    fn account(&self) -> &Account;
+
+    /// The bodies now, in the scene's order.
+    fn bodies(&self) -> Bodies<T>;
+
+    /// The bytes of memory that it holds.
+    fn bytes(&self) -> usize;
+}
+
+/// A scene in motion by steps.
+pub trait StepEngine<T: Real>: Engine<T> {
+    /// Length of a step, time.
+    fn dt(&self) -> T;
+
+    /// Length of a step as the scene gives it, not as the precision rounds it.
+    fn exact_dt(&self) -> f64;
+
+    /// Steps taken.
+    fn steps(&self) -> u64;
+
+    /// Takes steps, and reports the collisions of each in their order.
+    fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>);
+}
+
+/// A scene in motion from collision to collision.
+pub trait EventEngine<T: Real>: Engine<T> {
+    /// Lets time pass up to `time`, which is not past, or up to the given number
+    /// of collisions from now. Returns whether all up to that time is done.
+    fn advance_to(
+        &mut self,
+        time: f64,
+        events: u64,
+        on_event: Listener<'_, T>,
+    ) -> Result<bool, EngineError>;
+
+    /// The sum of all ways over the number of their ends.
+    fn mean_free_path(&self) -> Option<f64>;
+
+    /// What it took to find the collisions so far.
+    fn effort(&self) -> Effort;
+}

@@ -1,0 +1,118 @@
+//! Apply: the bodies of a collision receive their new motion.
+
+use super::clock::Clock;
+use super::contacts::Contact;
+use super::impact::Outcome;
+use super::record::Record;
+use super::setting::Setting;
+use super::state::{State, put};
+use crate::bodies::at;
+use crate::engine::account::Account;
+use crate::engine::{Event, Partner};
+use crate::motion::flight::Wrap;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// Gives the bodies of a contact their new motion; returns by how much a body
+/// was moved within the step.
+pub(super) fn apply<T: Real>(
+    setting: &Setting<T>,
+    state: &mut State<T>,
+    clock: &Clock,
+    account: &mut Account,
+    (contact, outcome): (&Contact<T>, &Outcome<T>),
+    record: Option<&mut Record<T>>,
+) -> T {
+    let is_pair = contact.rank.is_pair();
+    if is_pair {
+        account.pair(outcome.normal, outcome.offset);
+    } else {
+        account.surroundings(outcome.normal + outcome.tangential);
+    }
+    if let Some(record) = record {
+        record.push(*contact, event(setting, state, clock, contact, outcome));
+    }
+    let (a, b) = (outcome.a, outcome.b);
+    let mut jump = give(setting, state, clock, contact, contact.a, a.velocity, a.spin);
+    if is_pair {
+        let moved = give(setting, state, clock, contact, contact.b, b.velocity, b.spin);
+        jump = moved.greater(jump);
+    }
+    jump
+}
+
+fn give<T: Real>(
+    setting: &Setting<T>,
+    state: &mut State<T>,
+    clock: &Clock,
+    contact: &Contact<T>,
+    slot: u32,
+    velocity: Vec3<T>,
+    spin: Vec3<T>,
+) -> T {
+    let slot = slot as usize;
+    if setting.plan.is_rough {
+        let index = state.index[slot] as usize;
+        state.catch_up(index, clock.steps, setting.dt, contact.ago);
+        put(&mut state.spin, index, spin);
+    }
+    let mut jump = T::ZERO;
+    if setting.is_within_step() {
+        // Forward again from the contact with the new velocity.
+        let change = (velocity - at(&state.velocity, slot)) * contact.ago;
+        let position = at(&state.position, slot) + change;
+        let position = match setting.periodic {
+            None => position,
+            Some(space) => space.wrap(position),
+        };
+        put(&mut state.position, slot, position);
+        jump = change.length() * T::ratio(65, 64);
+    }
+    put(&mut state.velocity, slot, velocity);
+    jump
+}
+
+/// The event of a contact, before the bodies receive their new motion.
+fn event<T: Real>(
+    setting: &Setting<T>,
+    state: &State<T>,
+    clock: &Clock,
+    contact: &Contact<T>,
+    outcome: &Outcome<T>,
+) -> Event<T> {
+    let slot = contact.a as usize;
+    let path = &setting.path;
+    let before = path.end_velocity(at(&state.velocity, slot));
+    let center = path.center(at(&state.position, slot), before, contact.ago);
+    let length = outcome.offset.length();
+    let normal = outcome.offset * (T::ONE / length);
+    let at_contact = |velocity: Vec3<T>| path.velocity(path.end_velocity(velocity), contact.ago);
+    // Contacts of smooth bodies do not read spins.
+    let spin_after = |slot: u32, spin: Vec3<T>| match setting.plan.is_rough {
+        true => spin,
+        false => at(&state.spin, state.index[slot as usize] as usize),
+    };
+    let (partner, arm) = if contact.rank.is_pair() {
+        let radius = |slot: u32| state.radius.of(slot as usize);
+        let share = radius(contact.a) / (radius(contact.a) + radius(contact.b));
+        let partner = Partner::Body {
+            index: state.index[contact.b as usize],
+            velocity: at_contact(outcome.b.velocity),
+            spin: spin_after(contact.b, outcome.b.spin),
+        };
+        (partner, outcome.offset * share)
+    } else {
+        (Partner::Surroundings(setting.parts[contact.b as usize]), outcome.offset)
+    };
+    Event {
+        time: clock.time(setting.exact_dt) - contact.ago.to_f64(),
+        a: state.index[slot],
+        partner,
+        point: center - arm,
+        normal,
+        normal_impulse: outcome.normal.length(),
+        tangential_impulse: outcome.tangential,
+        velocity: at_contact(outcome.a.velocity),
+        spin: spin_after(contact.a, outcome.a.spin),
+    }
+}

@@ -1,0 +1,15 @@
+//! Clock: how far time is.
+
+/// Steps taken. A restart file keeps it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Clock {
+    pub steps: u64,
+}
+
+impl Clock {
+    /// Time since the start: steps times their length as the scene gives it,
+    /// not as the precision rounds it.
+    pub fn time(self, exact_dt: f64) -> f64 {
+        self.steps as f64 * exact_dt
+    }
+}

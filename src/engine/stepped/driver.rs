@@ -1,0 +1,127 @@
+//! Driver: step after step.
+
+use super::candidates::renew;
+use super::clock::Clock;
+use super::find::find_contacts;
+use super::fly::{fly, rotate};
+use super::lanes::in_lanes;
+use super::record::Record;
+use super::region::Region;
+use super::resolve::resolve;
+use super::setting::Setting;
+use crate::bodies::Bodies;
+use crate::engine::account::Account;
+use crate::engine::interface::{Engine, StepEngine};
+use crate::engine::plan::{Plan, Turning};
+use crate::engine::{EngineError, Execution, Listener};
+use crate::real::Real;
+use crate::scene::Scene;
+use crate::vec3::Vec3;
+
+/// A scene in motion, by steps of fixed length.
+#[derive(Debug)]
+pub(in crate::engine) struct Driver<T: Real> {
+    setting: Setting<T>,
+    region: Region<T>,
+    clock: Clock,
+    account: Account,
+}
+
+impl<T: Real> Driver<T> {
+    /// A scene at its start.
+    ///
+    /// # Errors
+    /// If the scene has no `dt`, or the system no threads to give.
+    pub fn new(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
+        let setting = Setting::new(&scene, execution)?;
+        let region = Region::new(&setting, scene.bodies);
+        Ok(Self { setting, region, clock: Clock::default(), account: Account::default() })
+    }
+}
+
+impl<T: Real> StepEngine<T> for Driver<T> {
+    fn dt(&self) -> T {
+        self.setting.dt
+    }
+
+    fn exact_dt(&self) -> f64 {
+        self.setting.exact_dt
+    }
+
+    fn steps(&self) -> u64 {
+        self.clock.steps
+    }
+
+    fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>) {
+        let Self { setting, region, clock, account } = self;
+        match on_event {
+            // From inside the pool a step hands out its work at the least cost.
+            None => setting.workers.run(|| {
+                for _ in 0..steps {
+                    take_step(setting, region, clock, account, None);
+                }
+            }),
+            Some(on_event) => {
+                for _ in 0..steps {
+                    let mut record = Record::default();
+                    take_step(setting, region, clock, account, Some(&mut record));
+                    record.report(on_event);
+                }
+            }
+        }
+    }
+}
+
+/// Takes one step: flight, candidates, contacts.
+fn take_step<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    clock: &mut Clock,
+    account: &mut Account,
+    record: Option<&mut Record<T>>,
+) {
+    let lanes = setting.plan.sweep_lanes;
+    let travel = in_lanes!(sweep lanes, fly::<T>(setting, &mut region.state));
+    clock.steps += 1;
+    if setting.plan.turning == Turning::EachStep {
+        in_lanes!(sweep lanes, rotate::<T>(setting, &mut region.state));
+    }
+    region.state.keep_count(clock.steps, setting.dt);
+    if !setting.has_contacts() {
+        return;
+    }
+    let nearby = &mut region.nearby;
+    nearby.travelled = nearby.travelled + travel + nearby.broadphase.rounding();
+    let is_valid = (nearby.travelled + nearby.travelled).lt(nearby.skin);
+    if clock.steps == 1 || !is_valid {
+        in_lanes!(gather setting.plan.gather_lanes, renew::<T>(setting, region, travel));
+    }
+    find_contacts(setting, region, travel);
+    resolve(setting, region, clock, account, record);
+}
+
+impl<T: Real> Engine<T> for Driver<T> {
+    fn plan(&self) -> &Plan {
+        &self.setting.plan
+    }
+
+    fn gravity(&self) -> Vec3<T> {
+        self.setting.gravity
+    }
+
+    fn time(&self) -> f64 {
+        self.clock.time(self.setting.exact_dt)
+    }
+
+    fn account(&self) -> &Account {
+        &self.account
+    }
+
+    fn bodies(&self) -> Bodies<T> {
+        self.region.state.bodies(self.clock.steps, self.setting.dt)
+    }
+
+    fn bytes(&self) -> usize {
+        self.region.bytes()
+    }
+}

@@ -1,0 +1,85 @@
+//! Region: what one worker writes.
+
+use super::contacts::{Contact, Rounds};
+use super::impact::Outcome;
+use super::setting::Setting;
+use super::state::State;
+use super::struck::Struck;
+use crate::bodies::Bodies;
+use crate::real::Real;
+use crate::space::broadphase::{BroadPhase, Candidates};
+
+/// The bodies, what is near what, and the contacts of the present step.
+///
+/// A restart file keeps the state; all else is found again.
+#[derive(Debug)]
+pub(super) struct Region<T: Real> {
+    pub state: State<T>,
+    pub nearby: Nearby<T>,
+    pub pending: Pending<T>,
+}
+
+/// The pairs and features that can come into contact before the next search.
+#[derive(Debug)]
+pub(super) struct Nearby<T: Real> {
+    pub broadphase: BroadPhase<T>,
+    pub candidates: Candidates,
+    /// The gap up to which the candidates are complete, length.
+    pub skin: T,
+    /// How far any body can have moved since the last search, length.
+    pub travelled: T,
+}
+
+/// The contacts of the present step.
+#[derive(Debug)]
+pub(super) struct Pending<T: Real> {
+    /// As they are found, by chunk of candidates.
+    pub found: Vec<Vec<Contact<T>>>,
+    /// Those that have not taken effect, in order.
+    pub waiting: Vec<Contact<T>>,
+    /// Those that take effect now, and what they do.
+    pub now: Vec<Contact<T>>,
+    pub outcomes: Vec<Outcome<T>>,
+    pub rounds: Rounds,
+    pub struck: Struck<T>,
+}
+
+impl<T: Real> Region<T> {
+    /// The bodies of a scene at its start.
+    pub fn new(setting: &Setting<T>, bodies: Bodies<T>) -> Self {
+        let len = bodies.len();
+        let state = State::new(bodies, setting.plan.turning, setting.is_within_step());
+        let slots = if setting.has_contacts() { len } else { 0 };
+        Self {
+            nearby: Nearby {
+                broadphase: BroadPhase::new(&state.radius, len, setting.features.as_slice()),
+                candidates: Candidates::default(),
+                skin: T::ZERO,
+                travelled: T::ZERO,
+            },
+            pending: Pending {
+                found: Vec::new(),
+                waiting: Vec::new(),
+                now: Vec::new(),
+                outcomes: Vec::new(),
+                rounds: Rounds::new(slots),
+                struck: Struck::new(if setting.is_within_step() { slots } else { 0 }),
+            },
+            state,
+        }
+    }
+
+    /// The bytes of memory that it holds.
+    pub fn bytes(&self) -> usize {
+        let Nearby { broadphase, candidates, .. } = &self.nearby;
+        let Pending { found, waiting, now, outcomes, rounds, struck } = &self.pending;
+        let found: usize = found.iter().map(Vec::capacity).sum();
+        self.state.bytes()
+            + broadphase.bytes()
+            + candidates.bytes()
+            + rounds.bytes()
+            + struck.bytes()
+            + size_of::<Contact<T>>() * (found + waiting.capacity() + now.capacity())
+            + size_of::<Outcome<T>>() * outcomes.capacity()
+    }
+}

@@ -1,0 +1,70 @@
+//! Checked: a scene without a mistake, and the way from its description.
+
+use super::description::Description;
+use super::error::SceneError;
+use super::settings::{Encounters, EngineKind, SteppedSettings};
+use super::{check, check_bodies, generate};
+use crate::bodies::Bodies;
+use crate::contact::Surface;
+use crate::real::Real;
+use crate::space::PeriodicBox;
+use crate::surroundings::Shape;
+use crate::vec3::Vec3;
+
+/// A checked scene: what an engine takes.
+///
+/// It can only be had from a [`SceneBuilder`](super::SceneBuilder) or a
+/// [`SceneFile`](super::SceneFile); the fields
+/// are for reading. Units are the user's own as long as they agree.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Scene<T: Real> {
+    /// What the summary calls it.
+    pub name: String,
+    /// What moves it through time.
+    pub engine: EngineKind,
+    /// How long a run takes, time. Without it, the user of the library decides
+    /// on the way.
+    pub duration: Option<f64>,
+    /// The uniform acceleration, length per time².
+    pub gravity: Vec3<T>,
+    /// What happens to the slip of two surfaces when they meet.
+    pub surface: Surface,
+    /// What spheres can meet.
+    pub encounters: Encounters,
+    /// The box that space closes upon itself in, if it does. Every side is at
+    /// least twice the greatest diameter, so that of all images of two bodies
+    /// only the nearest can touch.
+    pub periodic: Option<PeriodicBox<T>>,
+    /// What is fixed in space, in the order of the file.
+    pub surroundings: Vec<Shape<T>>,
+    /// What only the stepped engine asks.
+    pub stepped: SteppedSettings,
+    /// The spheres, in the order of the file.
+    pub bodies: Bodies<T>,
+}
+
+impl<T: Real> Scene<T> {
+    /// Checks a description, places the spheres, and checks what they make
+    /// together.
+    pub(super) fn new(mut asked: Description<T>) -> Result<Self, SceneError> {
+        check::settings(&asked)?;
+        let ranges = check::entries(&asked)?;
+        let periodic = generate::periodic_box(&asked)?;
+        let bodies = generate::bodies(&mut asked, periodic.map(|given| given.exact), &ranges)?;
+        let periodic = periodic.map(|given| given.rounded);
+        let bodies = check_bodies::bodies(&asked, periodic, bodies, &ranges)?;
+        Ok(Self {
+            name: asked.name,
+            engine: asked.engine,
+            duration: asked.duration,
+            gravity: asked.gravity,
+            surface: asked.surface,
+            encounters: asked.encounters,
+            periodic,
+            surroundings: asked.surroundings.into_iter().map(|given| given.rounded).collect(),
+            stepped: asked.stepped,
+            bodies,
+        })
+    }
+}

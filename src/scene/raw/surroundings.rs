@@ -1,0 +1,145 @@
+//! `[[surroundings]]` as it is written: a shape, and the keys of all shapes,
+//! sorted out by the shape later.
+
+use core::fmt;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+
+use super::{Number, Vector};
+use crate::surroundings::{Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
+
+/// An entry.
+#[derive(Clone, Debug, Default)]
+pub(in crate::scene) struct RawSurroundings {
+    pub(in crate::scene) shape: Option<&'static ShapeKind>,
+    pub(in crate::scene) values: ShapeEntry,
+}
+
+/// What a shape's name stands under.
+const SHAPE: &str = "shape";
+
+/// The keys of all shapes, each once: in the order of the shapes, those that
+/// later ones have too behind.
+pub(in crate::scene) static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
+    let mut keys: Vec<Key> = Vec::new();
+    for key in SHAPE_KINDS.iter().flat_map(|kind| kind.keys) {
+        keys.retain(|other| other.name != key.name);
+        keys.push(*key);
+    }
+    keys
+});
+
+/// The names of all keys.
+static KEY_NAMES: LazyLock<Vec<&str>> =
+    LazyLock::new(|| [SHAPE].into_iter().chain(KEYS.iter().map(|key| key.name)).collect());
+
+/// The names of all shapes.
+static SHAPE_NAMES: LazyLock<Vec<&str>> =
+    LazyLock::new(|| SHAPE_KINDS.iter().map(|kind| kind.name).collect());
+
+/// One of the keys.
+enum Field {
+    Shape,
+    Of(Key),
+}
+
+impl<'de> Deserialize<'de> for Field {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Taker;
+        impl Visitor<'_> for Taker {
+            type Value = Field;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a key")
+            }
+
+            fn visit_str<E: Error>(self, name: &str) -> Result<Field, E> {
+                if name == SHAPE {
+                    return Ok(Field::Shape);
+                }
+                let key = KEYS.iter().find(|key| key.name == name);
+                key.map(|key| Field::Of(*key)).ok_or_else(|| E::unknown_field(name, &KEY_NAMES))
+            }
+        }
+        deserializer.deserialize_identifier(Taker)
+    }
+}
+
+/// A shape by its name.
+struct Named(&'static ShapeKind);
+
+impl<'de> Deserialize<'de> for Named {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Taker;
+        impl Visitor<'_> for Taker {
+            type Value = Named;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "one of `{}`", SHAPE_NAMES.join("`, `"))
+            }
+
+            fn visit_str<E: Error>(self, name: &str) -> Result<Named, E> {
+                let kind = SHAPE_KINDS.iter().find(|kind| kind.name == name);
+                kind.map(Named).ok_or_else(|| E::unknown_variant(name, &SHAPE_NAMES))
+            }
+        }
+        deserializer.deserialize_str(Taker)
+    }
+}
+
+impl<'de> Deserialize<'de> for RawSurroundings {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Taker;
+        impl<'de> Visitor<'de> for Taker {
+            type Value = RawSurroundings;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table with a shape")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RawSurroundings, A::Error> {
+                let mut raw = RawSurroundings::default();
+                while let Some(field) = map.next_key()? {
+                    match field {
+                        Field::Shape => {
+                            let Named(shape) = map.next_value()?;
+                            raw.shape = Some(shape);
+                        }
+                        Field::Of(key) => raw.values.add(key, value(key, &mut map)?),
+                    }
+                }
+                Ok(raw)
+            }
+        }
+        deserializer.deserialize_map(Taker)
+    }
+}
+
+/// The value of a key.
+fn value<'de, A: MapAccess<'de>>(key: Key, map: &mut A) -> Result<Value, A::Error> {
+    Ok(match key.meaning {
+        Meaning::Point | Meaning::Direction => {
+            let Vector(vector) = map.next_value()?;
+            Value::Vector(vector)
+        }
+        Meaning::Length => {
+            let Number(number) = map.next_value()?;
+            Value::Number(number)
+        }
+        Meaning::Flag => Value::Flag(map.next_value()?),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{KEYS, SHAPE_KINDS};
+
+    /// The keys are read before it is known which shape they are of.
+    #[test]
+    fn a_key_means_the_same_in_all_shapes() {
+        for kind in SHAPE_KINDS {
+            for key in kind.keys {
+                assert!(KEYS.contains(key), "{key:?} of a {} means something else", kind.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Entry: a shape as a scene file describes it, as plain values under keys.
+
+use super::mistake::Mistake;
+
+/// What the value of a key says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    /// Three numbers, a point of space.
+    Point,
+    /// Three numbers, of any length.
+    Direction,
+    /// A number.
+    Length,
+    /// `true` or `false`.
+    Flag,
+}
+
+/// A key of a shape's entry. A name has one meaning in all shapes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) meaning: Meaning,
+}
+
+/// Whether spheres are inside of the shape: a container.
+pub(super) const INSIDE: Key = Key::new("inside", Meaning::Flag);
+
+impl Key {
+    /// A key of that name.
+    pub(super) const fn new(name: &'static str, meaning: Meaning) -> Self {
+        Self { name, meaning }
+    }
+}
+
+/// The value of a key.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Value {
+    /// Of a point and a direction.
+    Vector([f64; 3]),
+    /// Of a length.
+    Number(f64),
+    /// Of a flag.
+    Flag(bool),
+}
+
+/// The values that an entry gives.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ShapeEntry {
+    values: Vec<(Key, Value)>,
+}
+
+impl ShapeEntry {
+    /// Adds the value of a key, which is of the key's kind.
+    pub(crate) fn add(&mut self, key: Key, value: Value) {
+        self.values.push((key, value));
+    }
+
+    /// Whether the key has a value.
+    pub(crate) fn has(&self, key: Key) -> bool {
+        self.value(key).is_some()
+    }
+
+    /// The vector of a key that has to be there.
+    pub(super) fn vector(&self, key: Key) -> Result<[f64; 3], Mistake> {
+        match self.value(key) {
+            Some(Value::Vector(vector)) => Ok(vector),
+            _ => Err(Mistake::missing(key.name, NO_VECTOR)),
+        }
+    }
+
+    /// The number of a key that has to be there; `wanted` says what it is.
+    pub(super) fn number(&self, key: Key, wanted: &str) -> Result<f64, Mistake> {
+        match self.value(key) {
+            Some(Value::Number(number)) => Ok(number),
+            _ => Err(Mistake::missing(key.name, wanted)),
+        }
+    }
+
+    /// A flag, false if it is not there.
+    pub(super) fn flag(&self, key: Key) -> bool {
+        matches!(self.value(key), Some(Value::Flag(true)))
+    }
+
+    /// Moves every point away from the origin by a factor. The lengths of a
+    /// container grow with them, those of a solid stay.
+    pub(crate) fn dilate(&mut self, factor: f64) {
+        let inside = self.flag(INSIDE);
+        for (key, value) in &mut self.values {
+            match value {
+                Value::Vector(point) if key.meaning == Meaning::Point => {
+                    *point = point.map(|component| component * factor);
+                }
+                Value::Number(length) if inside => *length *= factor,
+                _ => {}
+            }
+        }
+    }
+
+    fn value(&self, key: Key) -> Option<Value> {
+        self.values.iter().find(|(other, _)| *other == key).map(|(_, value)| *value)
+    }
+}
+
+/// What belongs where a vector is missing.
+pub(crate) const NO_VECTOR: &str = "three numbers belong here, as in [0.0, 0.0, 1.0]";

@@ -1,0 +1,237 @@
+//! Solid: what a shape has to know. All of it stands in the shape's own file.
+
+use super::entry::{Key, ShapeEntry};
+use super::free_flight::FreeFlight;
+use super::mistake::Mistake;
+use super::{Clearance, Feature};
+use crate::lane::Lane;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// What a sphere touches in one point at a time: the kernels' side of a shape.
+pub(crate) trait Obstacle<T: Real> {
+    /// Where spheres with these centres and radii stand to it. Runs in the
+    /// innermost loops: `#[inline(always)]`.
+    fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L>;
+
+    /// When a sphere in free flight collides with it, as
+    /// [`Feature::contact_time`] has it.
+    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T>;
+
+    /// The corners of the box that the solid fills; `None` for one without end.
+    fn bounds(&self) -> Option<[Vec3<T>; 2]>;
+
+    /// The largest coordinate that its clearance is made of, length: what the
+    /// clearance's rounding is measured by.
+    fn farthest(&self) -> f64;
+}
+
+/// A fixed solid, as a scene names it: the scene's side of a shape.
+pub(crate) trait Solid<T: Real>: Clone + Into<Feature<T>> {
+    /// The same shape in another precision.
+    type In<B: Real>: Solid<B>;
+
+    /// What `shape` in a scene file, and messages, call it.
+    const NAME: &'static str;
+
+    /// The keys of its entry, in the order that messages list them.
+    const KEYS: &'static [Key];
+
+    /// The shape that an entry describes, with whatever values it has.
+    fn read(entry: &ShapeEntry) -> Result<Self::In<f64>, Mistake>;
+
+    /// Finds a value that cannot be.
+    fn check(&self) -> Result<(), Mistake>;
+
+    /// Every number becomes the nearest of another precision.
+    fn cast<B: Real>(&self) -> Self::In<B>;
+
+    /// What a sphere can touch in one point at a time: the shape itself, or
+    /// what it falls apart into.
+    fn features(&self) -> Vec<Feature<T>> {
+        vec![self.clone().into()]
+    }
+
+    /// The corners of the box around the hollow, if spheres are inside.
+    fn interior(&self) -> Option<[Vec3<T>; 2]> {
+        None
+    }
+
+    /// The corners of a box that fits into the hollow, for a lattice of spheres
+    /// to fill.
+    fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
+        self.interior()
+    }
+}
+
+/// A kind of shape, for those who read scene files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShapeKind {
+    /// As [`Solid::NAME`].
+    pub(crate) name: &'static str,
+    /// As [`Solid::KEYS`].
+    pub(crate) keys: &'static [Key],
+    /// As [`Solid::read`].
+    pub(crate) read: fn(&ShapeEntry) -> Result<super::Shape<f64>, Mistake>,
+}
+
+/// Makes of a list of solids, each by its module and type, the enums and all
+/// that chooses between them.
+macro_rules! solids {
+    ($($(#[$doc:meta])* $module:ident::$solid:ident,)*) => {
+        $(pub use $module::$solid;)*
+
+        /// A fixed solid, as a scene names it.
+        ///
+        /// ```
+        /// use carom::surroundings::{Cuboid, Shape};
+        ///
+        /// let container = Shape::from(Cuboid::container([0.0; 3], [2.0, 2.0, 4.0]));
+        /// let [lower, upper] = container.interior().ok_or("a container has an inside")?;
+        /// assert_eq!((upper - lower).to_array(), [2.0, 2.0, 4.0]);
+        /// assert_eq!(container.features().len(), 6);
+        /// # Ok::<(), &str>(())
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[non_exhaustive]
+        pub enum Shape<T> {
+            $($(#[$doc])* $solid($solid<T>),)*
+        }
+
+        /// What a sphere can touch in one point at a time.
+        ///
+        /// ```
+        /// use carom::surroundings::{Feature, FixedSphere};
+        /// use carom::vec3::Vec3;
+        ///
+        /// let ball = Feature::from(FixedSphere::solid([0.0; 3], 2.0));
+        /// let clearance = ball.clearance(Vec3::new(0.0, 0.0, 4.0), 0.5);
+        /// assert_eq!(clearance.gap, 1.5);
+        /// ```
+        #[derive(Clone, Copy, Debug)]
+        #[non_exhaustive]
+        pub enum Feature<T> {
+            $($(#[$doc])* $solid($solid<T>),)*
+        }
+
+        $(
+            impl<T> From<$solid<T>> for Shape<T> {
+                fn from(solid: $solid<T>) -> Self {
+                    Self::$solid(solid)
+                }
+            }
+
+            impl<T> From<$solid<T>> for Feature<T> {
+                fn from(solid: $solid<T>) -> Self {
+                    Self::$solid(solid)
+                }
+            }
+        )*
+
+        impl<T: Real> Shape<T> {
+            /// The features that a sphere can touch: the six faces of a
+            /// container, every other shape itself.
+            ///
+            /// ```
+            /// use carom::surroundings::{Plane, Shape};
+            /// let floor = Shape::from(Plane::new([0.0; 3], [0.0, 0.0, 1.0]));
+            /// assert_eq!(floor.features().len(), 1);
+            /// ```
+            #[must_use]
+            pub fn features(&self) -> Vec<Feature<T>> {
+                match self {
+                    $(Self::$solid(solid) => solid.features(),)*
+                }
+            }
+
+            /// The box around the region that the shape encloses as a container,
+            /// `lower` and `upper` corner, length; `None` for a shape that spheres
+            /// stay outside of.
+            ///
+            /// ```
+            /// use carom::surroundings::{FixedSphere, Shape};
+            /// let hollow = Shape::from(FixedSphere::container([1.0, 0.0, 0.0], 2.0));
+            /// let corners = hollow.interior().map(|corners| corners.map(|c| c.to_array()));
+            /// assert_eq!(corners, Some([[-1.0, -2.0, -2.0], [3.0, 2.0, 2.0]]));
+            /// assert_eq!(Shape::from(FixedSphere::solid([0.0; 3], 2.0)).interior(), None);
+            /// ```
+            #[must_use]
+            pub fn interior(&self) -> Option<[Vec3<T>; 2]> {
+                match self {
+                    $(Self::$solid(solid) => solid.interior(),)*
+                }
+            }
+
+            /// The shape in another precision: every number becomes the nearest.
+            ///
+            /// ```
+            /// use carom::surroundings::{FixedSphere, Shape};
+            /// let ball = Shape::from(FixedSphere::solid([0.0_f64; 3], 0.1));
+            /// assert_eq!(ball.cast::<f32>(), FixedSphere::solid([0.0; 3], 0.1).into());
+            /// ```
+            #[must_use]
+            pub fn cast<B: Real>(&self) -> Shape<B> {
+                match self {
+                    $(Self::$solid(solid) => Shape::$solid(solid.cast()),)*
+                }
+            }
+
+            /// As [`Solid::inscribed`].
+            pub(crate) fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
+                match self {
+                    $(Self::$solid(solid) => solid.inscribed(),)*
+                }
+            }
+
+            /// As [`Solid::check`].
+            pub(crate) fn check(&self) -> Result<(), Mistake> {
+                match self {
+                    $(Self::$solid(solid) => solid.check(),)*
+                }
+            }
+
+            /// As [`Solid::NAME`].
+            pub(crate) fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$solid(_) => <$solid<T> as Solid<T>>::NAME,)*
+                }
+            }
+        }
+
+        impl<T: Real> Obstacle<T> for Feature<T> {
+            #[inline(always)]
+            fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+                match self {
+                    $(Self::$solid(solid) => solid.clearance(center, radius),)*
+                }
+            }
+
+            fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+                match self {
+                    $(Self::$solid(solid) => solid.contact_time(flight),)*
+                }
+            }
+
+            fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+                match self {
+                    $(Self::$solid(solid) => solid.bounds(),)*
+                }
+            }
+
+            fn farthest(&self) -> f64 {
+                match self {
+                    $(Self::$solid(solid) => solid.farthest(),)*
+                }
+            }
+        }
+
+        /// All kinds of shape, in the order of the list.
+        pub(crate) const SHAPE_KINDS: &[ShapeKind] = &[$(ShapeKind {
+            name: <$solid<f64> as Solid<f64>>::NAME,
+            keys: <$solid<f64> as Solid<f64>>::KEYS,
+            read: |entry| <$solid<f64> as Solid<f64>>::read(entry).map(Shape::$solid),
+        },)*];
+    };
+}
+
+pub(super) use solids;
