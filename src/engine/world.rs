@@ -43,6 +43,18 @@ impl<T: Compiled> World<T> {
 
 impl<T: Real> World<T> {
     /// What the scene needs.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// println!("{}", world.plan());
+    /// assert_eq!(world.plan().bodies, 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn plan(&self) -> &Plan {
         match self {
@@ -52,6 +64,19 @@ impl<T: Real> World<T> {
     }
 
     /// The bodies now.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// // They meet half-way and go back.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.bodies().position_of(0).x, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bodies(&self) -> Bodies<T> {
         match self {
@@ -61,6 +86,17 @@ impl<T: Real> World<T> {
     }
 
     /// The uniform acceleration, length per time².
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// assert_eq!(world.gravity().to_array(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn gravity(&self) -> Vec3<T> {
         match self {
@@ -70,6 +106,18 @@ impl<T: Real> World<T> {
     }
 
     /// Time since the start.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn time(&self) -> f64 {
         match self {
@@ -79,6 +127,18 @@ impl<T: Real> World<T> {
     }
 
     /// Steps taken.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.steps(), 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn steps(&self) -> u64 {
         match self {
@@ -88,6 +148,18 @@ impl<T: Real> World<T> {
     }
 
     /// Collisions since the start.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.collisions().pairs, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
         match self {
@@ -98,6 +170,19 @@ impl<T: Real> World<T> {
 
     /// Lets time pass: the whole number of steps nearest to the duration, or the
     /// duration itself.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(0.25)?;
+    /// world.advance(0.75)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// Those of the engine's own `advance`.
@@ -110,6 +195,17 @@ impl<T: Real> World<T> {
 
     /// [`advance`](World::advance), and reports every collision on the way, in order
     /// of time.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.for_each_event(1.0, |event| assert_eq!(event.time, 0.5))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// As [`advance`](World::advance).
@@ -126,6 +222,18 @@ impl<T: Real> World<T> {
 
     /// The impulse of the surroundings on the bodies so far, mass × length per
     /// time.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.impulse_from_surroundings(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
         match self {
@@ -135,6 +243,19 @@ impl<T: Real> World<T> {
     }
 
     /// `Σ σ|J_n|` over the pair collisions so far, mass × length² per time.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// // Masses of 1 at a distance of 1 exchange an impulse of 2.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.virial(), 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
         match self {
@@ -144,6 +265,19 @@ impl<T: Real> World<T> {
     }
 
     /// Mean length of the flights between collisions, where the engine knows it.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// // Two ways of ½ that ended, two of ½ under way.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.mean_free_path(), Some(1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn mean_free_path(&self) -> Option<f64> {
         match self {
@@ -153,6 +287,17 @@ impl<T: Real> World<T> {
     }
 
     /// The bytes that it holds.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// assert!(world.bytes() > 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
         match self {
