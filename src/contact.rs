@@ -16,7 +16,7 @@ pub(crate) use approach::{Approach, greatest_component};
 pub(crate) use fall::{Start, fall_of_height};
 pub use impulse::{Impulse, Party, collide, collide_spread};
 pub(crate) use law::one_material;
-pub use law::{Closing, Law, Laws, Rough, Sliding, Smooth};
+pub use law::*;
 pub use surface::Surface;
 pub(crate) use surface::with_law;
 pub(crate) use time::ContactEquation;
