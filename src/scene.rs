@@ -38,7 +38,7 @@ mod figures;
 mod file;
 mod filling;
 mod generate;
-mod neighbours;
+mod obstacles;
 mod origin;
 mod random;
 mod raw;

@@ -15,6 +15,7 @@ mod entry;
 mod fixed_sphere;
 mod free_flight;
 mod mistake;
+mod parts;
 mod plane;
 mod solid;
 

@@ -20,6 +20,7 @@ mod crossing;
 mod driver;
 mod features;
 mod flight;
+mod levels;
 mod meeting;
 mod near;
 mod period;

@@ -87,7 +87,8 @@ pub trait Real:
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
 
-    /// The nearest number of another precision.
+    /// The nearest number of another precision: the same number if that is no
+    /// coarser.
     ///
     /// ```
     /// use carom::real::Real;

@@ -267,6 +267,42 @@ fn in_a_crowd() {
     crowds::<f64>();
 }
 
+/// A few great bodies in dust: cells in levels by size.
+#[test]
+fn giants_in_dust() {
+    fn giants<T: Compiled>() {
+        for seed in 0..8 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let side = 30.0;
+            let dust = Spheres::random(random.random_range(250..350))
+                .radius(if seed % 3 == 0 { 0.2..=0.2 } else { 0.02..=0.6 })
+                .density(0.1)
+                .temperature(1.0)
+                .seed(seed);
+            let mut scene = builder::<T>().name(format!("giants {seed}"));
+            let centers = [[8.0, 22.0, 15.0], [22.0, 8.0, 8.0], [22.0, 22.0, 24.0]];
+            for (center, most) in centers.into_iter().zip([6.0, 4.0, 2.0]) {
+                let radius = random.random_range(0.7..1.0) * most;
+                let velocity = core::array::from_fn(|_| random.random_range(-3.0..3.0));
+                scene =
+                    scene.sphere(Sphere::new(center).radius(radius).mass(5.0).velocity(velocity));
+            }
+            scene = match seed % 4 {
+                0 => scene,
+                1 => scene.surroundings(Cuboid::container(t3([0.0; 3]), t3([side; 3]))),
+                _ => scene.periodic(PeriodicBox::new(t3([0.0; 3]), t3([side; 3]))),
+            };
+            if seed % 2 == 1 {
+                scene = scene.surface(Surface::Rough).gravity(t3([0.5, 0.0, -2.0]));
+            }
+            let dust = if seed % 4 == 0 { dust.within([0.0; 3], [side; 3]) } else { dust };
+            same_events(&scene.spheres(dust).build().unwrap(), seed, 100);
+        }
+    }
+    giants::<f32>();
+    giants::<f64>();
+}
+
 /// Random scenes of each kind and precision.
 const SCENES: u64 = 40;
 
