@@ -1,17 +1,12 @@
 //! World: a scene in motion, by whichever engine moves it.
 
-use super::{Collisions, Compiled, EngineError, EventDriven, Execution, Listener, Plan, Stepped};
+use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
 use crate::vec3::Vec3;
 
-/// Into how many parts the duration of an event-driven run is divided: a stretch
-/// of one is over after such a part, or after one collision.
-const PARTS: f64 = 1_048_576.0;
-
-/// A scene in motion, by the engine that it names. How far it is, is told in
-/// steps or in time.
+/// A scene in motion, by the engine that it names.
 ///
 /// ```
 /// use carom::engine::{Execution, World};
@@ -19,11 +14,8 @@ const PARTS: f64 = 1_048_576.0;
 ///
 /// let scene = SceneFile::builtin("superball").ok_or("no such scene")?.build::<f64>()?;
 /// let mut world = World::new(scene, Execution::default())?;
-/// let length = world.length(1.0);
-/// while !world.advance(length, length, 1000, None)? {
-///     println!("{} collisions up to {}", world.collisions().total(), world.time());
-/// }
-/// assert!((world.time() - 1.0).abs() < 1e-3);
+/// world.for_each_event(0.5, |event| println!("sphere {} at {}", event.a, event.time))?;
+/// assert!(world.collisions().total() > 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -104,53 +96,31 @@ impl<T: Real> World<T> {
         }
     }
 
-    /// How far a run of this duration goes: the whole number of steps nearest to
-    /// it, at least one, or the time itself. A checked scene has no more steps
-    /// than can be counted.
-    #[must_use]
-    pub fn length(&self, duration: f64) -> f64 {
-        match self {
-            Self::Stepped(world) => (duration / world.exact_dt()).round().max(1.0),
-            Self::EventDriven(_) => duration,
-        }
-    }
-
-    /// How far the world is.
-    #[must_use]
-    pub fn place(&self) -> f64 {
-        match self {
-            Self::Stepped(world) => world.steps() as f64,
-            Self::EventDriven(world) => world.time(),
-        }
-    }
-
-    /// Goes on towards `mark` on a way of the given length, and returns whether
-    /// it is there. A `stretch` is so many steps, or collisions, or parts of the
-    /// way without any: a world where much happens comes back too.
+    /// Lets time pass: the whole number of steps nearest to the duration, or the
+    /// duration itself.
     ///
     /// # Errors
-    /// Of the event-driven engine, see
-    /// [`advance_to`](EventDriven::advance_to).
-    pub fn advance(
-        &mut self,
-        mark: f64,
-        length: f64,
-        stretch: u64,
-        on_event: Listener<'_, T>,
-    ) -> Result<bool, EngineError> {
+    /// Those of the engine's own `advance`.
+    pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
         match self {
-            Self::Stepped(world) => {
-                let left = (mark - world.steps() as f64).ceil() as u64;
-                let steps = stretch.min(left);
-                world.take_steps(steps, on_event);
-                Ok(steps == left)
-            }
-            Self::EventDriven(world) => {
-                let end = world.time() + length * (stretch as f64 / PARTS);
-                let is_last = end >= mark;
-                let end = if is_last { mark } else { end };
-                Ok(world.advance_to(end, stretch, on_event)? && is_last)
-            }
+            Self::Stepped(world) => world.advance(duration),
+            Self::EventDriven(world) => world.advance(duration),
+        }
+    }
+
+    /// [`advance`](World::advance), and reports every collision on the way, in order
+    /// of time.
+    ///
+    /// # Errors
+    /// As [`advance`](World::advance).
+    pub fn for_each_event(
+        &mut self,
+        duration: f64,
+        on_event: impl FnMut(&Event<T>),
+    ) -> Result<(), EngineError> {
+        match self {
+            Self::Stepped(world) => world.for_each_event(duration, on_event),
+            Self::EventDriven(world) => world.for_each_event(duration, on_event),
         }
     }
 

@@ -204,7 +204,6 @@ fn built_in_scenes_agree_with_f64() {
 
 fn state<T: Compiled>(file: &SceneFile, duration: f64) -> World<T> {
     let mut world = World::<T>::new(file.build().unwrap(), Execution::default()).unwrap();
-    let length = world.length(duration);
-    while !world.advance(length, length, 1 << 20, None).unwrap() {}
+    world.advance(duration).unwrap();
     world
 }
