@@ -69,8 +69,10 @@ pub struct Plan {
     pub has_pairs: bool,
     /// How many fixed features bodies meet.
     pub features: usize,
+    /// Which law contacts follow.
+    pub surface: Surface,
     /// Whether contacts read and change spins.
-    pub is_rough: bool,
+    pub changes_spins: bool,
     /// Whether radii are loaded for each body.
     pub has_radii: bool,
     /// Whether masses are loaded for each body.
@@ -94,7 +96,7 @@ impl Plan {
             EngineKind::Stepped => lanes::<T>(execution.lanes),
             EngineKind::EventDriven => search_lanes::<T>(execution.lanes, has_screening),
         };
-        let is_rough = scene.surface == Surface::Rough && scene.encounters != Encounters::None;
+        let changes_spins = scene.surface.changes_spins() && scene.encounters != Encounters::None;
         let bodies = &scene.bodies;
         let is_spinning = bodies.spin.iter().any(|column| column.iter().any(|&w| w != T::ZERO));
         let features = match scene.encounters {
@@ -102,9 +104,9 @@ impl Plan {
             _ => scene.surroundings.iter().map(|shape| shape.features().len()).sum(),
         };
         let turning = match scene.stepped.orientation {
-            _ if !is_rough && !is_spinning => Turning::Never,
+            _ if !changes_spins && !is_spinning => Turning::Never,
             OrientationUpdate::EachStep if engine == EngineKind::Stepped => Turning::EachStep,
-            _ if is_rough => Turning::FromLastContact,
+            _ if changes_spins => Turning::FromLastContact,
             _ => Turning::FromStart,
         };
         Self {
@@ -121,7 +123,8 @@ impl Plan {
             is_periodic: scene.periodic.is_some(),
             has_pairs: scene.encounters == Encounters::All && bodies.len() > 1,
             features,
-            is_rough,
+            surface: scene.surface,
+            changes_spins,
             has_radii: matches!(bodies.radius, PerBody::Each(_)),
             has_masses: matches!(bodies.mass, PerBody::Each(_)),
             turning,
