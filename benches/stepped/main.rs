@@ -13,6 +13,7 @@ mod criterion_settings;
 mod scenes;
 
 mod gas;
+mod parts;
 mod skips;
 mod small;
 
@@ -56,6 +57,7 @@ fn main() -> Result<(), SetupError> {
     gas::benches::<f64>(&mut criterion)?;
     skips::benches::<f32>(&mut criterion)?;
     skips::benches::<f64>(&mut criterion)?;
+    parts::benches::<f64>(&mut criterion)?;
     small::benches::<f32>(&mut criterion)?;
     small::benches::<f64>(&mut criterion)?;
     criterion.final_summary();
