@@ -11,6 +11,7 @@ mod world;
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 pub use account::Effort;
@@ -22,8 +23,9 @@ pub use stepped::Stepped;
 pub use world::World;
 
 /// How many reals a kernel works on at once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Lanes {
     /// The fastest widths for each kernel.
     #[default]
@@ -31,13 +33,13 @@ pub enum Lanes {
     /// One: the scalar reference path.
     Scalar,
     /// Four.
-    #[serde(rename = "4")]
+    #[cfg_attr(feature = "files", serde(rename = "4"))]
     Four,
     /// Eight.
-    #[serde(rename = "8")]
+    #[cfg_attr(feature = "files", serde(rename = "8"))]
     Eight,
     /// Sixteen.
-    #[serde(rename = "16")]
+    #[cfg_attr(feature = "files", serde(rename = "16"))]
     Sixteen,
 }
 
@@ -65,7 +67,8 @@ impl fmt::Display for Lanes {
 pub const MOST_THREADS: usize = 1024;
 
 /// On what a scene is run; it changes no bit of the result.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub struct Execution {
     /// How many reals a kernel works on at once.
     pub lanes: Lanes,
@@ -74,7 +77,8 @@ pub struct Execution {
 }
 
 /// Collisions counted by an engine.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize))]
 pub struct Collisions {
     /// Between two bodies.
     pub pairs: u64,

@@ -8,10 +8,11 @@ use std::time::Instant;
 use carom::contact::Surface;
 use carom::engine::{EngineError, Event, World};
 use carom::observe::Temperature;
-use carom::output::{EventWriter, OutputError, OutputFile};
+use carom::output::EventWriter;
 use carom::real::Real;
 
 use super::failure::Failure;
+use super::output_file::{OutputError, OutputFile};
 use super::progress::Progress;
 
 /// How long the engine runs between two looks at the clock.
@@ -103,9 +104,9 @@ struct Samples {
     spans: u32,
     /// How many have passed.
     passed: u32,
-    last_place: f64,
+    last_progress: f64,
     last: f64,
-    /// Temperature × place, by the trapezoidal rule.
+    /// Temperature × progress, by the trapezoidal rule.
     integral: f64,
 }
 
@@ -117,7 +118,7 @@ impl Samples {
             Surface::Smooth => 1,
             Surface::Rough => 32,
         };
-        Self { spans, passed: 0, last_place: 0.0, last: first.translational, integral: 0.0 }
+        Self { spans, passed: 0, last_progress: 0.0, last: first.translational, integral: 0.0 }
     }
 
     /// Where the next sample is due.
@@ -126,10 +127,10 @@ impl Samples {
     }
 
     fn take<T: Real>(&mut self, world: &World<T>) {
-        let place = world.place();
+        let progress = world.place();
         let now = Temperature::of(&world.bodies()).map_or(self.last, |now| now.translational);
-        self.integral += 0.5 * (self.last + now) * (place - self.last_place);
-        (self.last_place, self.last) = (place, now);
+        self.integral += 0.5 * (self.last + now) * (progress - self.last_progress);
+        (self.last_progress, self.last) = (progress, now);
         self.passed += 1;
     }
 }

@@ -2,12 +2,14 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 /// The surfaces of all bodies and surroundings of a scene. Both kinds conserve
 /// energy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Surface {
     /// Frictionless, `e = 1, β = −1`: a contact pushes along the normal only,
     /// and spins never change.

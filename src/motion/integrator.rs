@@ -5,14 +5,16 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 use crate::lane::Lane;
 use crate::vec3::Vec3;
 
 /// One step of length `Δt` in a uniform acceleration `a`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Integrator {
     /// [`SemiImplicitEuler`]: each step loses `Δt²|a|²m/2` of energy.
     #[default]

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::Serialize;
 
 use crate::bodies::Bodies;
@@ -10,7 +11,8 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// Temperature of the two kinds of motion, in units of energy (`k = 1`).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "files", derive(Serialize))]
 pub struct Temperature {
     /// Of the centres, `kT = (2 E_trans − P²/M) / 3(N − 1)`: of their motion
     /// relative to the mean velocity. Without total momentum this is

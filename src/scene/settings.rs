@@ -2,14 +2,16 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 use crate::motion::Integrator;
 use crate::real::Real;
 
 /// In which numbers a scene is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Precision {
     /// Single precision, 24 binary digits.
     F32,
@@ -45,8 +47,9 @@ impl fmt::Display for Precision {
 }
 
 /// How an engine goes through time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum EngineKind {
     /// Steps of fixed length.
     #[default]
@@ -56,8 +59,9 @@ pub enum EngineKind {
 }
 
 /// What spheres can meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Encounters {
     /// Spheres meet each other and the surroundings.
     #[default]
@@ -82,8 +86,9 @@ pub struct SteppedSettings {
 }
 
 /// Where inside a step of the stepped engine a contact takes effect.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Impact {
     /// At the end of the step, where the bodies are found to overlap.
     #[default]
@@ -94,8 +99,9 @@ pub enum Impact {
 }
 
 /// When orientations are brought up to date.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum OrientationUpdate {
     /// As a closed form of the last change of spin, when it is asked for.
     #[default]

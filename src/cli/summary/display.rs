@@ -1,10 +1,10 @@
-//! Report: the summary as a person reads it, in 80 columns.
+//! The summary as a person reads it, in 80 columns.
 
 use core::fmt;
 
-use super::summary::{Summary, shortest};
-use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
-use crate::scene::Impact;
+use super::{Summary, shortest};
+use carom::scene::Impact;
+use carom::study::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
 
 /// The labels of a vector's rows.
 const AXES: [&str; 3] = ["  x", "  y", "  z"];
