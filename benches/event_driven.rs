@@ -194,7 +194,7 @@ impl Row {
 /// of the input asks for. Every answer is the time of a collision in seconds,
 /// the engine's memory and that of the process, bytes a body.
 fn serve<T: Compiled>(row: &Row, melting: u64) -> Result<(), Box<dyn Error>> {
-    let execution = Execution { lanes: row.lanes, threads: 1 };
+    let execution = Execution::new().lanes(row.lanes).threads(1);
     let mut world = EventDriven::with_execution(row.scene::<T>()?, execution)?;
     world.advance_until(melting * row.bodies / 2, 1e9)?;
     println!();

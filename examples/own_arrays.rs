@@ -5,11 +5,11 @@
 //! cargo run --release --example own_arrays
 //! ```
 
+use carom::Vec3;
 use carom::contact::{Party, Rough, Smooth, collide};
 use carom::motion::flight::flight;
 use carom::motion::integrator::VelocityVerlet;
 use carom::space::OpenSpace;
-use carom::{Surface, Vec3};
 use wide::f64x4;
 
 fn main() {
@@ -38,13 +38,14 @@ fn main() {
         share: f64x4::splat(1.0),
     };
     let from_contact_to_center = Vec3::splat(Vec3::new(0.0, 0.0, 0.5));
-    for surface in [Surface::Smooth, Surface::Rough] {
+    for is_rough in [false, true] {
         let (mut ball, mut floor) = (falling, Party::immovable());
-        let impulse = match surface {
-            Surface::Smooth => collide(Smooth, from_contact_to_center, &mut ball, &mut floor),
-            Surface::Rough => collide(Rough, from_contact_to_center, &mut ball, &mut floor),
+        let impulse = if is_rough {
+            collide(Rough, from_contact_to_center, &mut ball, &mut floor)
+        } else {
+            collide(Smooth, from_contact_to_center, &mut ball, &mut floor)
         };
-        println!("{surface:?}:");
+        println!("{}:", if is_rough { "rough" } else { "smooth" });
         println!("  spins before     {:.3?}", falling.spin.y.to_array());
         println!("  spins after      {:.3?}", ball.spin.y.to_array());
         println!("  velocities after {:.3?}", ball.velocity.x.to_array());

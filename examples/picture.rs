@@ -50,7 +50,7 @@ impl View {
         }
     }
 
-    /// Place in the picture, in pixels, and how near to the viewer.
+    /// Position in the picture, in pixels, and how near to the viewer.
     fn project(&self, point: Vec3<f64>) -> [f64; 3] {
         let from_middle = point - Vec3::new(SIDE / 2.0, SIDE / 2.0, SIDE / 2.0);
         [
@@ -82,9 +82,9 @@ const PALETTE: [[f64; 3]; 5] = [
     [255.0, 226.0, 130.0],
 ];
 
-/// The colour at a place between 0 and 1 of the palette, lighter or darker.
-fn colour(place: f64, light: f64) -> String {
-    let scaled = place.clamp(0.0, 1.0) * (PALETTE.len() - 1) as f64;
+/// The colour at a part between 0 and 1 of the palette, lighter or darker.
+fn colour(part: f64, light: f64) -> String {
+    let scaled = part.clamp(0.0, 1.0) * (PALETTE.len() - 1) as f64;
     let below = (scaled as usize).min(PALETTE.len() - 2);
     let part = scaled - below as f64;
     let mixed: [u8; 3] = core::array::from_fn(|k| {
@@ -103,14 +103,14 @@ fn drawing(bodies: &Bodies<f64>) -> String {
          <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" rx=\"18\" fill=\"{BACKGROUND}\"/>\n<defs>\n"
     );
     for shade in 0..SHADES {
-        let place = shade as f64 / (SHADES - 1) as f64;
+        let part = shade as f64 / (SHADES - 1) as f64;
         svg += &format!(
             "<radialGradient id=\"g{shade}\" cx=\".5\" cy=\".5\" r=\".55\" fx=\".36\" fy=\".3\">\
              <stop stop-color=\"{}\"/><stop offset=\".35\" stop-color=\"{}\"/>\
              <stop offset=\"1\" stop-color=\"{}\"/></radialGradient>\n",
-            colour(place, 1.62),
-            colour(place, 1.0),
-            colour(place, 0.3),
+            colour(part, 1.62),
+            colour(part, 1.0),
+            colour(part, 0.3),
         );
     }
     svg += "</defs>\n";
@@ -147,8 +147,8 @@ fn drawing(bodies: &Bodies<f64>) -> String {
         svg +=
             &format!("<path d=\"M0 20H{WIDTH}V740H0z\" fill=\"{BACKGROUND}\" opacity=\".1\"/>\n");
         for &(k, [x, y, _]) in layer {
-            let place = ((speeds[k] / slow).ln() / (fast / slow).ln()).clamp(0.0, 1.0);
-            let shade = (place * (SHADES - 1) as f64).round();
+            let part = ((speeds[k] / slow).ln() / (fast / slow).ln()).clamp(0.0, 1.0);
+            let shade = (part * (SHADES - 1) as f64).round();
             let radius = SCALE * bodies.radius.of(k);
             svg += &format!(
                 "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" fill=\"url(#g{shade})\"/>\n"

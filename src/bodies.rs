@@ -1,4 +1,19 @@
 //! Bodies: the state of all spheres, a column for each component.
+//!
+//! ```
+//! use carom::Bodies;
+//!
+//! let bodies = Bodies::from_positions(&[[0.0, 0.0, 1.0], [2.0, 0.0, 1.0]])
+//!     .velocities(&[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+//!     .radius(0.5)
+//!     .build()?;
+//! assert_eq!(bodies.len(), 2);
+//! assert_eq!(bodies.velocity_of(0).x, 1.0);
+//! assert_eq!(bodies.inertia.of(0), 0.1); // a solid ball of mass 1
+//! # Ok::<(), carom::bodies::BodiesError>(())
+//! ```
+
+mod builder;
 
 use crate::column::Column;
 use crate::lane::Lane;
@@ -6,11 +21,24 @@ use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
+pub use builder::{BodiesBuilder, BodiesError};
+
 /// The three components of a vector, a column each.
 pub type Columns3<T> = [Column<T>; 3];
 
 /// A figure of each body, stored only where the bodies differ in it.
-#[derive(Clone, Debug)]
+///
+/// ```
+/// use carom::bodies::PerBody;
+///
+/// let equal = PerBody::from_values([0.5, 0.5].into_iter(), 0.0);
+/// assert_eq!(equal, PerBody::Same(0.5));
+/// let radius = PerBody::from_values([0.5, 2.0].into_iter(), 0.0);
+/// assert_eq!(radius.of(1), 2.0);
+/// assert_eq!(radius.greatest(), 2.0);
+/// assert_eq!(radius.map(|r| 2.0 * r).of(0), 1.0);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub enum PerBody<T: Real> {
     /// All bodies have this value.
     Same(T),
@@ -64,7 +92,7 @@ impl<T: Real> PerBody<T> {
         }
     }
 
-    /// The greatest value of `len` bodies.
+    /// The greatest value; 0 if there is none.
     #[must_use]
     pub fn greatest(&self) -> T {
         match self {
@@ -76,6 +104,17 @@ impl<T: Real> PerBody<T> {
 
 /// A figure of each body as a kernel reads it. The type says at compile time
 /// whether it has to be loaded at all.
+///
+/// ```
+/// use carom::bodies::{Figure, Same};
+/// use wide::f64x4;
+///
+/// fn at_pairs<R: Figure<f64>>(radius: R) -> [f64; 4] {
+///     radius.gather::<f64x4>(&[3, 0, 1, 1]).to_array()
+/// }
+/// assert_eq!(at_pairs([1.0, 2.0, 3.0, 4.0].as_slice()), [4.0, 1.0, 2.0, 2.0]);
+/// assert_eq!(at_pairs(Same(0.5)), [0.5; 4]);
+/// ```
 pub trait Figure<T: Real>: Copy + Send + Sync {
     /// The figures of the bodies at `indices`.
     fn gather<L: Lane<Scalar = T>>(self, indices: &[u32]) -> L;
@@ -88,7 +127,7 @@ pub trait Figure<T: Real>: Copy + Send + Sync {
 }
 
 /// One figure for all bodies: nothing is loaded.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Same<T>(pub T);
 
 impl<T: Real> Figure<T> for Same<T> {
@@ -134,8 +173,10 @@ impl<T: Real> Figure<T> for &[T] {
 ///
 /// Units are the user's own as long as they agree (SI, or σ = m = kT = 1).
 /// Vectors are in the world frame. Every column has [`len`](Bodies::len)
-/// elements.
-#[derive(Clone, Debug)]
+/// elements. Columns are read and written in place; see the
+/// [module](self) for how to make bodies from arrays.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Bodies<T: Real> {
     /// Centres, length.
     pub position: Columns3<T>,
@@ -155,6 +196,29 @@ pub struct Bodies<T: Real> {
 }
 
 impl<T: Real> Bodies<T> {
+    /// Bodies with these centres, length; what else they have is set by the
+    /// methods of [`BodiesBuilder`].
+    ///
+    /// ```
+    /// use carom::Bodies;
+    /// use carom::bodies::BodiesError;
+    ///
+    /// let positions = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+    /// let bodies = Bodies::from_positions(&positions).radii(&[1.0, 0.5]).build()?;
+    /// assert_eq!(bodies.position_of(1).x, 3.0);
+    /// assert_eq!(bodies.radius.of(1), 0.5);
+    ///
+    /// let error = Bodies::from_positions(&positions).radii(&[1.0]).build().unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "there are 1 radii for 2 positions; give one for each body"
+    /// );
+    /// # Ok::<(), BodiesError>(())
+    /// ```
+    pub fn from_positions(positions: &[[T; 3]]) -> BodiesBuilder<'_, T> {
+        BodiesBuilder::new(positions)
+    }
+
     /// How many bodies there are.
     #[inline]
     #[must_use]
@@ -180,6 +244,15 @@ impl<T: Real> Bodies<T> {
 
     /// Multiplies all velocities, of centres and angular ones, by a factor: −1
     /// turns the motion back.
+    ///
+    /// ```
+    /// # use carom::Bodies;
+    /// let ball = Bodies::from_positions(&[[0.0; 3]]).velocities(&[[1.0, 2.0, 0.0]]).radius(0.5);
+    /// let mut back = ball.build()?;
+    /// back.scale_motion(-1.0);
+    /// assert_eq!(back.velocity_of(0).to_array(), [-1.0, -2.0, 0.0]);
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
     pub fn scale_motion(&mut self, factor: T) {
         for column in self.velocity.iter_mut().chain(&mut self.spin) {
             for value in column.iter_mut() {
@@ -188,19 +261,22 @@ impl<T: Real> Bodies<T> {
         }
     }
 
-    /// Centre of body `index`.
+    /// Centre of body `index`, length.
+    ///
+    /// # Panics
+    /// If there are no more than `index` bodies, as the next three.
     #[must_use]
     pub fn position_of(&self, index: usize) -> Vec3<T> {
         at(&self.position, index)
     }
 
-    /// Velocity of body `index`.
+    /// Velocity of body `index`, length per time.
     #[must_use]
     pub fn velocity_of(&self, index: usize) -> Vec3<T> {
         at(&self.velocity, index)
     }
 
-    /// Angular velocity of body `index`.
+    /// Angular velocity of body `index`, rad per time.
     #[must_use]
     pub fn spin_of(&self, index: usize) -> Vec3<T> {
         at(&self.spin, index)

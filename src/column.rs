@@ -10,6 +10,14 @@ use crate::real::Real;
 ///
 /// It dereferences to the `len` reals; the padding holds the value that the
 /// column was made with and is only seen through [`padded`](Column::padded).
+///
+/// ```
+/// use carom::column::Column;
+///
+/// let mut heights = Column::from([1.0, 2.0, 4.0].as_slice());
+/// heights[1] = 3.0;
+/// assert_eq!(heights.iter().sum::<f64>(), 8.0);
+/// ```
 #[derive(Clone)]
 pub struct Column<T: Real> {
     blocks: Vec<T::Block>,
@@ -36,16 +44,28 @@ impl<T: Real> Column<T> {
     }
 
     /// A column of the given values, padded with `padding`.
+    ///
+    /// ```
+    /// use carom::column::Column;
+    /// let squares = Column::from_values((0..10).map(|k| f64::from(k * k)), 0.0);
+    /// assert_eq!(squares[3], 9.0);
+    /// ```
     #[must_use]
     pub fn from_values(values: impl ExactSizeIterator<Item = T>, padding: T) -> Self {
         let mut column = Self::new(values.len(), padding);
-        for (place, value) in column.iter_mut().zip(values) {
-            *place = value;
+        for (slot, value) in column.iter_mut().zip(values) {
+            *slot = value;
         }
         column
     }
 
     /// The values with the padding behind them.
+    ///
+    /// ```
+    /// use carom::column::Column;
+    /// let column = Column::from_values([1.0, 2.0].into_iter(), 7.0);
+    /// assert_eq!(column.padded()[..3], [1.0, 2.0, 7.0]);
+    /// ```
     #[inline]
     #[must_use]
     pub fn padded(&self) -> &[T] {
@@ -63,6 +83,27 @@ impl<T: Real> Column<T> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(self.blocks.as_slice())
+    }
+}
+
+/// A copy of the values, padded with 0.
+impl<T: Real> From<&[T]> for Column<T> {
+    fn from(values: &[T]) -> Self {
+        Self::from_values(values.iter().copied(), T::ZERO)
+    }
+}
+
+/// No values.
+impl<T: Real> Default for Column<T> {
+    fn default() -> Self {
+        Self::new(0, T::ZERO)
+    }
+}
+
+/// The padding does not count.
+impl<T: Real> PartialEq for Column<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self[..] == other[..]
     }
 }
 

@@ -1,4 +1,9 @@
-//! Contact: when two surfaces meet, and what they do to each other.
+//! Contact: when two surfaces touch, and what a collision does.
+//!
+//! Two bodies *meet* where their paths bring them into *contact*: the surfaces
+//! touch. A *collision* is a contact at which an impulse acts, since the bodies
+//! approach each other. [`contact_time`] and [`past_contact`] say when bodies
+//! meet; [`collide`] gives the impulse, by a [`Law`].
 
 mod approach;
 mod fall;
@@ -10,7 +15,9 @@ mod time;
 pub(crate) use approach::{Approach, greatest_component};
 pub(crate) use fall::{Start, fall_of_height};
 pub use impulse::{Impulse, Party, collide, collide_spread};
-pub use law::{Closing, Law, Laws, Rough, Sliding, Smooth};
+pub(crate) use law::one_material;
+pub use law::*;
 pub use surface::Surface;
-pub(crate) use time::Encounter;
+pub(crate) use surface::with_law;
+pub(crate) use time::ContactEquation;
 pub use time::{ContactTime, PastContact, contact_time, past_contact};

@@ -23,9 +23,15 @@ pub use stepped::Stepped;
 pub use world::World;
 
 /// How many reals a kernel works on at once.
+///
+/// ```
+/// use carom::Lanes;
+/// assert_eq!(Lanes::Eight.to_string(), "8");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum Lanes {
     /// The fastest widths for each kernel.
     #[default]
@@ -67,18 +73,72 @@ impl fmt::Display for Lanes {
 pub const MOST_THREADS: usize = 1024;
 
 /// On what a scene is run; it changes no bit of the result.
+///
+/// ```
+/// use carom::{Execution, Lanes, Scene, Sphere, Stepped};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5);
+/// let scene = Scene::<f32>::builder().sphere(ball).dt(1e-3).build()?;
+/// let execution = Execution::new().threads(1).lanes(Lanes::Scalar);
+/// let world = Stepped::with_execution(scene, execution)?;
+/// assert_eq!(world.plan().threads, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[non_exhaustive]
 pub struct Execution {
     /// How many reals a kernel works on at once.
+    ///
+    /// ```
+    /// use carom::Lanes;
+    /// assert_eq!(Lanes::Eight.to_string(), "8");
+    /// ```
     pub lanes: Lanes,
     /// Worker threads; 0 takes all cores.
     pub threads: usize,
 }
 
+impl Execution {
+    /// The fastest lanes, and all cores.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self { lanes: Lanes::Auto, threads: 0 }
+    }
+
+    /// How many reals a kernel works on at once.
+    #[must_use]
+    pub const fn lanes(mut self, lanes: Lanes) -> Self {
+        self.lanes = lanes;
+        self
+    }
+
+    /// Worker threads; 0 takes all cores.
+    #[must_use]
+    pub const fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
+        self
+    }
+}
+
 /// Collisions counted by an engine.
+///
+/// ```
+/// use carom::{EventDriven, Plane, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5).velocity([0.0, 0.0, -1.0]);
+/// let floor = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+/// let scene = Scene::<f64>::builder().surroundings(floor).sphere(ball).build()?;
+/// let mut world = EventDriven::new(scene)?;
+/// world.advance(1.0)?;
+/// let collisions = world.collisions();
+/// assert_eq!((collisions.pairs, collisions.surroundings), (0, 1));
+/// assert_eq!((collisions.total(), collisions.ends()), (1, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize))]
+#[non_exhaustive]
 pub struct Collisions {
     /// Between two bodies.
     pub pairs: u64,
@@ -100,8 +160,18 @@ impl Collisions {
     }
 }
 
-/// Why an engine can't take a scene.
+/// Why an engine can't take a scene, or can't go on.
+///
+/// ```
+/// use carom::{EngineError, Scene, Sphere, Stepped};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5);
+/// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+/// assert!(matches!(Stepped::new(scene), Err(EngineError::NoStep)));
+/// # Ok::<(), carom::SceneError>(())
+/// ```
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum EngineError {
     /// The stepped engine needs the length of a step.
     #[error(

@@ -50,6 +50,7 @@
 //!
 //! The formulas are public, over single numbers, lanes and slices: see
 //! [`motion::flight`](mod@motion::flight), [`motion::turning`] and [`contact::collide`].
+//! [`Bodies::from_positions`] takes a program's own arrays into a scene.
 //!
 //! ```
 //! use carom::contact::{Party, Rough, collide};
@@ -57,7 +58,7 @@
 //!
 //! // A solid ball of mass 1 and radius ½ comes down on a rough floor.
 //! let mut ball = Party {
-//!     velocity: Vec3::new(1.0, 0.0, -1.0),
+//!     velocity: Vec3::new(1.0, 0.0, -1.0_f64),
 //!     spin: Vec3::new(0.0, 0.0, 0.0),
 //!     inverse_mass: 1.0,
 //!     inverse_inertia: 10.0,
@@ -76,7 +77,7 @@
 //! [event-driven](EventDriven) engine misses nothing, works on one thread, and
 //! gives an [error](EngineError::Stalled) for a sphere that rests on something
 //! under gravity, which never stops colliding. Bodies are spheres; what is
-//! fixed is a plane, an axis-aligned box or a sphere. Contacts lose no energy:
+//! fixed is a plane, an axis-aligned box or a sphere. Collisions lose no energy:
 //! there is no restitution below 1 and no friction between "none" and "perfect".
 //! A scene has at most [a hundred million](scene::MOST_BODIES) bodies, and the
 //! squares of its lengths and speeds must be in the precision's range.

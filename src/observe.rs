@@ -5,24 +5,18 @@
 //! every path and its error is that of the terms, not of their number.
 //!
 //! ```
-//! use carom::bodies::{Bodies, PerBody};
-//! use carom::column::Column;
 //! use carom::observe::{Energy, Momentum};
-//! use carom::vec3::Vec3;
+//! use carom::{Bodies, Vec3};
 //!
-//! let columns = |values: [f64; 3]| values.map(|value| Column::new(1, value));
-//! let ball = Bodies {
-//!     position: columns([0.0, 0.0, 2.0]),
-//!     velocity: columns([3.0, 0.0, 0.0]),
-//!     spin: columns([0.0, 0.0, 0.0]),
-//!     orientation: None,
-//!     radius: PerBody::Same(0.5),
-//!     mass: PerBody::Same(2.0),
-//!     inertia: PerBody::Same(0.2),
-//! };
+//! let ball = Bodies::from_positions(&[[0.0, 0.0, 2.0]])
+//!     .velocities(&[[3.0, 0.0, 0.0]])
+//!     .radius(0.5)
+//!     .mass(2.0)
+//!     .build()?;
 //! let energy = Energy::of(&ball, Vec3::new(0.0, 0.0, -10.0));
 //! assert_eq!(energy.to_string(), "49 (9 translational, 0 rotational, 40 potential)");
 //! assert_eq!(Momentum::of(&ball).to_string(), "(6, 0, 0)");
+//! # Ok::<(), carom::bodies::BodiesError>(())
 //! ```
 
 mod energy;
@@ -45,6 +39,15 @@ use crate::compensated::CompensatedSum;
 use crate::real::Real;
 
 /// The mass of all bodies together.
+///
+/// ```
+/// use carom::Bodies;
+/// use carom::observe::total_mass;
+/// let positions = [[0.0; 3], [2.0, 0.0, 0.0]];
+/// let bodies = Bodies::from_positions(&positions).radius(0.5).masses(&[1.0, 3.0]).build()?;
+/// assert_eq!(total_mass(&bodies), 4.0);
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
 #[must_use]
 pub fn total_mass<T: Real>(bodies: &Bodies<T>) -> f64 {
     match &bodies.mass {

@@ -43,7 +43,7 @@ mod filling;
 mod generate;
 #[cfg(feature = "files")]
 mod lines;
-mod neighbours;
+mod obstacles;
 mod origin;
 mod random;
 #[cfg(feature = "files")]

@@ -1,6 +1,14 @@
 //! Space: open or periodic, and who is near what in it.
 
 pub(crate) mod broadphase;
+pub(crate) mod neighbours;
+#[cfg(test)]
+mod noise;
+mod parts;
 mod periodic;
+mod tree;
 
+pub use parts::FixedParts;
 pub use periodic::{OpenSpace, PeriodicBox, Space};
+pub(crate) use tree::joined;
+pub use tree::{Bounds, Tree};

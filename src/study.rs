@@ -27,6 +27,7 @@
 
 pub mod chart;
 pub mod clock;
+mod course;
 pub mod deviation;
 mod error;
 pub mod fit;
@@ -43,6 +44,7 @@ mod subject;
 pub mod table;
 pub mod work_precision;
 
+pub use course::Course;
 pub use error::StudyError;
 pub use folder::Folder;
 pub use journal::Journal;

@@ -18,6 +18,7 @@ mod entry;
 mod fixed_sphere;
 mod free_flight;
 mod mistake;
+mod parts;
 mod plane;
 mod solid;
 

@@ -27,6 +27,23 @@ fn are_near(a: Mat3<Number>, b: Mat3<Number>, within: f64) -> bool {
     a.rows().into_iter().zip(b.rows()).all(|(a, b)| is_near(a, b, within))
 }
 
+/// Both parts, the sign of zero and infinity.
+#[test]
+fn a_cast_keeps_what_the_other_precision_can_hold() {
+    let third = Number::ratio(1, 3);
+    let same: Number = third.cast();
+    assert_eq!([same.high(), same.low()], [third.high(), third.low()]);
+    assert_eq!(third.cast::<f64>(), 1.0 / 3.0);
+    assert_eq!(third.cast::<f32>(), 1.0 / 3.0);
+    for value in [-0.0, 0.5, -1e300, f64::MIN_POSITIVE, f64::INFINITY] {
+        let bits = [value, value.cast::<Number>().cast()].map(f64::to_bits);
+        assert_eq!(bits[0], bits[1]);
+    }
+    let vector = Vec3::new(third, Number::ZERO, -third);
+    assert_eq!(vector.cast::<f64>().to_array(), [1.0 / 3.0, 0.0, -1.0 / 3.0]);
+    assert_eq!(vector.cast::<Number>(), vector);
+}
+
 #[test]
 fn sine_and_cosine_have_known_digits() {
     // From 400 bits.

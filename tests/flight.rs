@@ -100,7 +100,7 @@ fn a_periodic_box_takes_bodies_back() {
     let space = PeriodicBox::new([0.0; 3], [10.0; 3]);
     let (mut x, mut y, mut z) = ([9.5; 5], [0.5; 5], [5.0; 5]);
     let (mut u, mut v, mut w) = ([1.0; 5], [-1.0; 5], [1.0; 5]);
-    Integrator::SemiImplicitEuler.flight::<wide::f64x2, _>(
+    Integrator::SemiImplicitEuler.flight::<wide::f64x4, _>(
         [&mut x, &mut y, &mut z],
         [&mut u, &mut v, &mut w],
         None,

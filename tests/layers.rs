@@ -5,12 +5,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// From the bottom up. Modules of one entry may import each other.
-const LAYERS: [&[&str]; 11] = [
+const LAYERS: [&[&str]; 12] = [
     &["numbers", "compensated", "lane", "mat3", "real", "trigonometry", "vec3"],
     &["column", "bodies", "workers"],
     &["motion"],
     &["contact"],
-    &["space", "surroundings"],
+    &["space"],
+    &["surroundings"],
     &["scene"],
     &["engine"],
     &["observe"],
@@ -92,7 +93,7 @@ const SCENE: [&str; 20] = [
     "check",
     "figures",
     "filling",
-    "neighbours",
+    "obstacles",
     "arrangement",
     "generate",
     "check_bodies",

@@ -8,7 +8,7 @@ use carom::trigonometry::sin_cos;
 use common::numbers::Random;
 
 /// Error of `found` in units of the last place of `expected`, for a number of
-/// so many digits and so small a least exponent.
+/// `digits` binary digits and the least exponent `least`.
 fn ulps(found: f64, expected: f64, difference: f64, digits: i32, least: i32) -> f64 {
     if difference == 0.0 {
         return 0.0;
@@ -19,11 +19,11 @@ fn ulps(found: f64, expected: f64, difference: f64, digits: i32, least: i32) -> 
 }
 
 /// Greatest errors over every `stride`-th `f32` of the range of the table in
-/// [`sin_cos`]: in units of the last place up to where quarter turns are told,
+/// [`sin_cos`]: in units of the last place up to where quarter turns are counted,
 /// absolute beyond.
 #[allow(clippy::disallowed_methods)] // The platform's f64 functions are the reference.
 fn sweep_f32(stride: usize) -> (f64, f64) {
-    let told = 262_144.0 * core::f32::consts::FRAC_PI_2;
+    let counted = 262_144.0 * core::f32::consts::FRAC_PI_2;
     let (mut worst, mut worst_far) = (0.0, 0.0);
     for bits in (0..(2_f32.powi(38)).to_bits()).step_by(stride) {
         let x = f32::from_bits(bits);
@@ -31,7 +31,7 @@ fn sweep_f32(stride: usize) -> (f64, f64) {
         let (expected_sine, expected_cosine) = f64::from(x).sin_cos();
         for (found, expected) in [(sine, expected_sine), (cosine, expected_cosine)] {
             let found = f64::from(found);
-            if x <= told {
+            if x <= counted {
                 worst = f64::max(worst, ulps(found, expected, found - expected, 24, -126));
             } else {
                 worst_far = f64::max(worst_far, (found - expected).abs());

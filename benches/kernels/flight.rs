@@ -32,14 +32,14 @@ pub fn benches<T: Real>(criterion: &mut Criterion) {
 }
 
 /// The space that a sweep is in, as a type.
-trait Place<T: Real> {
+trait InSpace<T: Real> {
     type Space: Space<T>;
     fn space() -> Self::Space;
 }
 
 struct Open;
 
-impl<T: Real> Place<T> for Open {
+impl<T: Real> InSpace<T> for Open {
     type Space = OpenSpace;
 
     fn space() -> OpenSpace {
@@ -49,7 +49,7 @@ impl<T: Real> Place<T> for Open {
 
 struct Periodic;
 
-impl<T: Real> Place<T> for Periodic {
+impl<T: Real> InSpace<T> for Periodic {
     type Space = PeriodicBox<T>;
 
     fn space() -> PeriodicBox<T> {
@@ -64,7 +64,7 @@ struct Flight<T: Real, I, P> {
     how: PhantomData<(I, P)>,
 }
 
-impl<T: Real, I: FlightStep, P: Place<T>> Sweep<T> for Flight<T, I, P> {
+impl<T: Real, I: FlightStep, P: InSpace<T>> Sweep<T> for Flight<T, I, P> {
     const READ: usize = if I::CHANGES_VELOCITY { 0 } else { 3 };
     const REWRITTEN: usize = if I::CHANGES_VELOCITY { 6 } else { 3 };
 

@@ -13,10 +13,11 @@ mod criterion_settings;
 mod scenes;
 
 mod gas;
+mod parts;
 mod skips;
 mod small;
 
-use carom::engine::{Compiled, EngineError, Execution, Lanes, Stepped};
+use carom::engine::{Compiled, EngineError, Execution, Stepped};
 use carom::scene::{Scene, SceneError};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Throughput};
@@ -43,7 +44,7 @@ fn measure<T: Compiled>(
 ) -> Result<(), SetupError> {
     let bodies = scene.bodies.len() as u64;
     let steps = (1_000_000 / bodies).max(10);
-    let mut world = Stepped::with_execution(scene, Execution { lanes: Lanes::Auto, threads })?;
+    let mut world = Stepped::with_execution(scene, Execution::new().threads(threads))?;
     world.advance_steps(WARM_UP_STEPS);
     group.throughput(Throughput::Elements(bodies * steps));
     group.bench_function(id, |bencher| bencher.iter(|| world.advance_steps(steps)));
@@ -56,6 +57,7 @@ fn main() -> Result<(), SetupError> {
     gas::benches::<f64>(&mut criterion)?;
     skips::benches::<f32>(&mut criterion)?;
     skips::benches::<f64>(&mut criterion)?;
+    parts::benches::<f64>(&mut criterion)?;
     small::benches::<f32>(&mut criterion)?;
     small::benches::<f64>(&mut criterion)?;
     criterion.final_summary();

@@ -1,7 +1,7 @@
 //! Worlds of few bodies, advanced one step at a time: what a call costs.
 
 use carom::contact::Surface;
-use carom::engine::{Compiled, EventDriven, Execution, Lanes, Stepped};
+use carom::engine::{Compiled, EventDriven, Execution, Stepped};
 use criterion::{BenchmarkId, Criterion, Throughput};
 
 use crate::{SetupError, WARM_UP_STEPS, criterion_settings, scenes};
@@ -9,7 +9,7 @@ use crate::{SetupError, WARM_UP_STEPS, criterion_settings, scenes};
 /// All benches of this file.
 pub fn benches<T: Compiled>(criterion: &mut Criterion) -> Result<(), SetupError> {
     let mut group = criterion_settings::group(criterion, &format!("small/{}", T::NAME), 20);
-    let execution = Execution { lanes: Lanes::Auto, threads: 1 };
+    let execution = Execution::new().threads(1);
     for bodies in [1, 5, 50] {
         group.throughput(Throughput::Elements(1));
         let scene = scenes::gas::<T>(bodies, Surface::Smooth)?;

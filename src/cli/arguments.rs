@@ -143,10 +143,9 @@ pub struct RunArguments {
 impl SceneArguments {
     /// On what the scene is to be run.
     pub fn execution(&self) -> Execution {
-        Execution {
-            lanes: self.lanes.unwrap_or_default(),
-            threads: self.threads.map_or(0, |threads| threads as usize),
-        }
+        Execution::new()
+            .lanes(self.lanes.unwrap_or_default())
+            .threads(self.threads.map_or(0, |threads| threads as usize))
     }
 }
 

@@ -13,7 +13,7 @@ pub fn explain(arguments: &SceneArguments) -> Result<(), Failure> {
     let file = scene_file(arguments)?;
     let plan = match file.precision {
         Precision::F32 => plan::<f32>(&file, arguments)?,
-        Precision::F64 => plan::<f64>(&file, arguments)?,
+        _ => plan::<f64>(&file, arguments)?,
     };
     print(&plan)
 }

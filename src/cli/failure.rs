@@ -43,7 +43,7 @@ pub enum Failure {
     #[error(
         "at time {time:?} the state is no longer finite; nothing was written. {}--precision f64, or \
          units in which lengths and speeds are nearer to 1, may keep it in range",
-        match engine { EngineKind::Stepped => "A smaller --dt, ", EngineKind::EventDriven => "" }
+        match engine { EngineKind::Stepped => "A smaller --dt, ", _ => "" }
     )]
     NotFinite {
         /// Simulated time.

@@ -10,6 +10,7 @@ use carom::engine::{EngineError, Event, World};
 use carom::observe::Temperature;
 use carom::output::EventWriter;
 use carom::real::Real;
+use carom::study::Course;
 
 use super::failure::Failure;
 use super::output_file::{OutputError, OutputFile};
@@ -20,8 +21,7 @@ const STRETCH: Duration = Duration::from_millis(50);
 
 /// A run under way.
 pub struct Journey {
-    /// How far it goes, in the world's own measure.
-    length: f64,
+    course: Course,
     busy: Duration,
     /// In a periodic box, the samples for the mean temperature.
     samples: Option<Samples>,
@@ -35,9 +35,9 @@ impl Journey {
         duration: f64,
         gas: Option<(Temperature, Surface)>,
     ) -> Self {
-        let length = world.length(duration);
+        let course = Course::new(world, duration);
         let samples = gas.map(|(first, surface)| Samples::new(first, surface));
-        Self { length, busy: Duration::ZERO, samples }
+        Self { course, busy: Duration::ZERO, samples }
     }
 
     /// Goes all the way, and writes the collisions to `events`, which comes back
@@ -47,17 +47,17 @@ impl Journey {
         world: &mut World<T>,
         events: Option<OutputFile>,
     ) -> Result<Option<OutputFile>, Failure> {
-        let progress = Progress::new(self.length);
+        let progress = Progress::new(self.course);
         let mut events = events.map(Recorder::new).transpose()?;
         let mut stretch: u64 = 1;
         loop {
-            let mark =
-                self.samples.as_ref().map_or(self.length, |samples| samples.mark(self.length));
+            let length = self.course.length();
+            let mark = self.samples.as_ref().map_or(length, |samples| samples.mark(length));
             let start = Instant::now();
             let is_there = match &mut events {
-                None => world.advance(mark, self.length, stretch, None)?,
+                None => self.course.advance(world, mark, stretch, None)?,
                 Some(events) => events.advance(|on_event| {
-                    world.advance(mark, self.length, stretch, Some(on_event))
+                    self.course.advance(world, mark, stretch, Some(on_event))
                 })?,
             };
             let taken = start.elapsed();
@@ -74,7 +74,7 @@ impl Journey {
             if let Some(samples) = &mut self.samples {
                 samples.take(world);
             }
-            if mark >= self.length {
+            if mark >= length {
                 break;
             }
         }
@@ -93,7 +93,7 @@ impl Journey {
     /// not needed.
     pub fn mean_temperature(&self) -> Option<f64> {
         let samples = self.samples.as_ref()?;
-        Some(samples.integral / self.length)
+        Some(samples.integral / self.course.length())
     }
 }
 
@@ -104,9 +104,9 @@ struct Samples {
     spans: u32,
     /// How many have passed.
     passed: u32,
-    last_progress: f64,
+    last_position: f64,
     last: f64,
-    /// Temperature × progress, by the trapezoidal rule.
+    /// Temperature × position, by the trapezoidal rule.
     integral: f64,
 }
 
@@ -114,11 +114,8 @@ impl Samples {
     fn new(first: Temperature, surface: Surface) -> Self {
         // Rough contacts exchange energy between motion and spin: the ends of a
         // run do not tell what was in between.
-        let spans = match surface {
-            Surface::Smooth => 1,
-            Surface::Rough => 32,
-        };
-        Self { spans, passed: 0, last_progress: 0.0, last: first.translational, integral: 0.0 }
+        let spans = if surface.changes_spins() { 32 } else { 1 };
+        Self { spans, passed: 0, last_position: 0.0, last: first.translational, integral: 0.0 }
     }
 
     /// Where the next sample is due.
@@ -127,10 +124,10 @@ impl Samples {
     }
 
     fn take<T: Real>(&mut self, world: &World<T>) {
-        let progress = world.place();
+        let position = Course::position(world);
         let now = Temperature::of(&world.bodies()).map_or(self.last, |now| now.translational);
-        self.integral += 0.5 * (self.last + now) * (progress - self.last_progress);
-        (self.last_progress, self.last) = (progress, now);
+        self.integral += 0.5 * (self.last + now) * (position - self.last_position);
+        (self.last_position, self.last) = (position, now);
         self.passed += 1;
     }
 }

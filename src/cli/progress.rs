@@ -6,6 +6,7 @@ use std::io::{self, IsTerminal};
 use carom::engine::World;
 use carom::real::Real;
 use carom::scene::EngineKind;
+use carom::study::Course;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 /// How finely the bar tells how far the run is.
@@ -13,13 +14,13 @@ const GRAINS: f64 = 1e6;
 
 /// A bar on standard error, if that is a terminal.
 pub struct Progress {
-    length: f64,
+    course: Course,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// The bar of a run of a length in the world's own measure.
-    pub fn new(length: f64) -> Self {
+    /// The bar of a run.
+    pub fn new(course: Course) -> Self {
         let bar = io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(GRAINS as u64);
             let template = "{bar:20} {percent:>3}%  {msg}";
@@ -28,7 +29,7 @@ impl Progress {
             }
             bar
         });
-        Self { length, bar }
+        Self { course, bar }
     }
 
     /// Shows how far the run is.
@@ -37,12 +38,12 @@ impl Progress {
         let count = world.collisions().total();
         let (done, unit) = match world.plan().engine {
             EngineKind::Stepped => (world.steps(), "steps"),
-            EngineKind::EventDriven => (count, "collisions"),
+            _ => (count, "collisions"),
         };
         let rate = done as f64 / busy.as_secs_f64().max(1e-9);
         let time = world.time();
         let time = if time < 0.01 { format!("{time:.2e}") } else { format!("{time:.4}") };
-        let part = world.place() / self.length;
+        let part = self.course.done(world);
         // The bar's own estimate says 0 as long as it sees nothing move.
         let left = Duration::try_from_secs_f64(busy.as_secs_f64() * (1.0 / part - 1.0));
         let left = left.map_or_else(

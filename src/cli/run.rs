@@ -23,7 +23,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let file = scene_file(&arguments.scene)?;
     match file.precision {
         Precision::F32 => run_in::<f32>(&file, arguments),
-        Precision::F64 => run_in::<f64>(&file, arguments),
+        _ => run_in::<f64>(&file, arguments),
     }
 }
 

@@ -12,6 +12,8 @@
 //! J_t = −2 T / (1/m₁ + 1/m₂ + (l₁²/I₁ + l₂²/I₂) x·x)
 //! ```
 //!
+//! What a law changes is the factor −2 of either impulse ([`law`](super::law)).
+//!
 //! A normalised normal would bias the energy by up to 0.76 ε per collision
 //! where `|x|` is near a power of two. The arms `lᵢ x` are in proportion to the
 //! true distance, so angular momentum is conserved also where rounding or a
@@ -25,7 +27,25 @@ use crate::lane::Lane;
 use crate::vec3::Vec3;
 
 /// One of the two bodies of a contact.
-#[derive(Clone, Copy, Debug)]
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::{Party, Rough, collide};
+///
+/// // A rolling ball comes to a rough wall, turning with its motion.
+/// let mut ball = Party {
+///     velocity: Vec3::new(1.0, 0.0, 0.0),
+///     spin: Vec3::new(0.0, 2.0, 0.0),
+///     inverse_mass: 1.0,
+///     inverse_inertia: 10.0,
+///     share: 1.0,
+/// };
+/// let from_wall = Vec3::new(-0.5, 0.0, 0.0);
+/// collide(Rough, from_wall, &mut ball, &mut Party::immovable());
+/// assert_eq!(ball.velocity.x, -1.0);
+/// assert!(ball.velocity.z > 0.0); // the grip lifts it
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Party<L> {
     /// Velocity of the centre, length per time.
     pub velocity: Vec3<L>,
@@ -67,11 +87,11 @@ impl<L: Lane> Party<L> {
     }
 }
 
-/// The impulses of a contact on the first body; the second one receives the
+/// The impulses of a collision on the first body; the second one receives the
 /// opposite.
 #[derive(Clone, Copy, Debug)]
 pub struct Impulse<L: Lane> {
-    /// Whether the bodies were approaching. Elsewhere both impulses are zero.
+    /// Whether the bodies approached each other. Elsewhere both impulses are zero.
     pub approaching: L::Mask,
     /// Normal impulse, mass × length per time.
     pub normal: Vec3<L>,
@@ -150,7 +170,7 @@ pub fn collide<L: Lane, W: Law<L>>(
 /// [`collide`], in other units for each contact, so that roundings do not add
 /// up.
 ///
-/// Equal spheres always meet at one distance, and equal masses have one sum:
+/// Equal spheres always touch at one distance, and equal masses have one sum:
 /// `x·x` and `−2/(1/m₁ + …)` then are the same numbers in every collision, and
 /// round to the same side. The energy of a gas drifts with that, by up to
 /// 0.07 ε of a particle's in each of its collisions, linearly in their number.

@@ -2,7 +2,8 @@
 //!
 //! What every contact has in common is in [`collide`](super::collide). A law
 //! adds two things: the factor `−(1 + e)` of the normal impulse, and the
-//! tangential impulse. Each law is one file of `contact/law/`.
+//! tangential impulse. Each law is one file of `contact/law/`, and one entry of
+//! the list in `contact/surface.rs`.
 
 mod rough;
 mod smooth;
@@ -105,4 +106,9 @@ pub trait Laws<T: Real>: Copy + Send + Sync {
 
     /// The law of a pack of contacts, lane `k` between two `materials(k)`.
     fn between<L: Lane<Scalar = T>>(&self, materials: impl Fn(usize) -> [u32; 2]) -> Self::Of<L>;
+}
+
+/// Bodies and fixed parts have no materials yet: there is one.
+pub(crate) fn one_material(_: usize) -> [u32; 2] {
+    [0; 2]
 }

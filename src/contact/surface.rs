@@ -1,24 +1,51 @@
-//! Surface: what happens to the slip of two surfaces when they meet.
+//! Surface: the list of contact laws, by the names that a scene gives them.
 
 use core::fmt;
 
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
-/// The surfaces of all bodies and surroundings of a scene. Both kinds conserve
-/// energy.
+use super::law::Laws;
+
+/// The surfaces of all bodies and surroundings of a scene: the name of a
+/// contact [law](super::Law). Both kinds conserve energy.
+///
+/// ```
+/// use carom::Surface;
+/// assert_eq!(Surface::default(), Surface::Smooth);
+/// assert_eq!(Surface::Rough.to_string(), "rough");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum Surface {
-    /// Frictionless, `e = 1, β = −1`: a contact pushes along the normal only,
-    /// and spins never change.
+    /// [`Smooth`](super::Smooth): a collision pushes along the normal only, and
+    /// spins never change.
     #[default]
     Smooth,
-    /// Perfectly rough, `e = β = 1`: a contact reverses the relative velocity
-    /// of the surfaces, the tangential part too.
+    /// [`Rough`](super::Rough): a collision reverses the relative velocity of
+    /// the surfaces, the tangential part too.
     Rough,
 }
+
+/// An expression with `$law` as the [`Laws`] of a surface: one instance of it
+/// for each law.
+macro_rules! with_law {
+    ($surface:expr, $law:ident => $expression:expr) => {
+        match $surface {
+            $crate::contact::Surface::Smooth => {
+                let $law = $crate::contact::Smooth;
+                $expression
+            }
+            $crate::contact::Surface::Rough => {
+                let $law = $crate::contact::Rough;
+                $expression
+            }
+        }
+    };
+}
+pub(crate) use with_law;
 
 impl fmt::Display for Surface {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -27,4 +54,21 @@ impl fmt::Display for Surface {
             Self::Rough => "rough",
         })
     }
+}
+
+impl Surface {
+    /// Whether collisions read and change spins.
+    ///
+    /// ```
+    /// use carom::Surface;
+    /// assert!(Surface::Rough.changes_spins() && !Surface::Smooth.changes_spins());
+    /// ```
+    #[must_use]
+    pub fn changes_spins(self) -> bool {
+        with_law!(self, law => changes_spins(law))
+    }
+}
+
+fn changes_spins<W: Laws<f64>>(_: W) -> bool {
+    W::CHANGES_SPINS
 }

@@ -3,7 +3,8 @@
 use crate::lane::Lane;
 use crate::vec3::Vec3;
 
-/// How long ago two spheres came into contact, on straight relative paths.
+/// How long ago two spheres came into contact, on straight relative paths: see
+/// [`past_contact`].
 #[derive(Clone, Copy, Debug)]
 pub struct PastContact<L: Lane> {
     /// Whether the paths, followed back, touch at all.
@@ -12,7 +13,8 @@ pub struct PastContact<L: Lane> {
     pub ago: L,
 }
 
-/// In how much time two spheres come into contact, on straight relative paths.
+/// In how much time two spheres come into contact, on straight relative paths:
+/// see [`contact_time`].
 #[derive(Clone, Copy, Debug)]
 pub struct ContactTime<L: Lane> {
     /// Whether the spheres approach each other and will touch.
@@ -24,7 +26,7 @@ pub struct ContactTime<L: Lane> {
 
 /// The terms of `|x + Vt|² = s²`, which both directions of time share.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Encounter<L> {
+pub(crate) struct ContactEquation<L> {
     speed_squared: L,
     /// `x·V`.
     moving_apart: L,
@@ -35,7 +37,7 @@ pub(crate) struct Encounter<L> {
     discriminant: L,
 }
 
-impl<L: Lane> Encounter<L> {
+impl<L: Lane> ContactEquation<L> {
     #[inline(always)]
     pub(crate) fn new(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Self {
         let speed_squared = relative.length_squared();
@@ -48,7 +50,7 @@ impl<L: Lane> Encounter<L> {
         }
     }
 
-    /// Whether the spheres would meet if `x·V` were less by `slack`.
+    /// Whether the spheres would touch if `x·V` were less by `slack`.
     #[inline(always)]
     pub(crate) fn may_meet(&self, slack: L) -> L::Mask {
         self.moving_apart.lt(slack) & self.discriminant.gt(L::ZERO)
@@ -77,10 +79,20 @@ impl<L: Lane> Encounter<L> {
 ///
 /// The greater root of `|x − Vτ|² = s²`, each sign of `x·V` in the form that
 /// does not cancel.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::past_contact;
+///
+/// // At the end of a step two spheres overlap by a quarter.
+/// let contact = past_contact(Vec3::new(0.75, 0.0, 0.0), Vec3::new(-2.0, 0.0, 0.0), 1.0_f64);
+/// assert!(contact.met);
+/// assert_eq!(contact.ago, 0.125);
+/// ```
 #[inline(always)]
 pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> PastContact<L> {
-    let Encounter { speed_squared, moving_apart, overlap, discriminant } =
-        Encounter::new(offset, relative, reach);
+    let ContactEquation { speed_squared, moving_apart, overlap, discriminant } =
+        ContactEquation::new(offset, relative, reach);
     let met = discriminant.gt(L::ZERO) & speed_squared.gt(L::ZERO);
     let root = L::select(met, discriminant, L::ZERO).sqrt();
     let is_apart = moving_apart.gt(L::ZERO);
@@ -94,7 +106,7 @@ pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Pa
 ///
 /// The lesser root of `|x + Vt|² = s²` for approaching spheres, `x·V < 0`:
 /// `t = (x·x − s²)/(√D − x·V)`. Spheres that overlap and approach touch now,
-/// `t = 0`; spheres that do not approach never meet, nor do those that graze
+/// `t = 0`; spheres that do not approach never touch, nor do those that graze
 /// without depth, `D = 0`. Two spheres in one uniform field move straight
 /// relative to each other.
 ///
@@ -109,7 +121,7 @@ pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Pa
 /// ```
 #[inline(always)]
 pub fn contact_time<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> ContactTime<L> {
-    Encounter::new(offset, relative, reach).contact_time()
+    ContactEquation::new(offset, relative, reach).contact_time()
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// What a body met.
+/// What a body collided with.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Partner<T> {
     /// Another body, with a greater index, and its motion just after.
     Body {
@@ -23,13 +24,30 @@ pub enum Partner<T> {
 pub type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
 
 /// One collision.
+///
+/// ```
+/// use carom::{EventDriven, Partner, Scene, Sphere};
+///
+/// let scene = Scene::<f64>::builder()
+///     .sphere(Sphere::new([0.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]))
+///     .sphere(Sphere::new([3.0, 0.0, 0.0]).radius(0.5))
+///     .build()?;
+/// let mut world = EventDriven::new(scene)?;
+/// world.for_each_event(3.0, |event| {
+///     assert_eq!((event.time, event.a, event.point.x), (2.0, 0, 2.5));
+///     assert_eq!(event.normal.x, -1.0);
+///     assert!(matches!(event.partner, Partner::Body { index: 1, .. }));
+/// })?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Event<T: Real> {
     /// Time of the collision since the start.
     pub time: f64,
     /// Index of the first body in the scene.
     pub a: u32,
-    /// What it met.
+    /// What it collided with.
     pub partner: Partner<T>,
     /// Point of contact, length.
     pub point: Vec3<T>,

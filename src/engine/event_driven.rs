@@ -20,6 +20,7 @@ mod crossing;
 mod driver;
 mod features;
 mod flight;
+mod levels;
 mod meeting;
 mod near;
 mod period;
@@ -83,6 +84,17 @@ impl<T: Real> EventDriven<T> {
     ///
     /// Two advances are one, bit by bit: to stop in between changes nothing.
     ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// world.advance(0.25)?;
+    /// world.advance(0.75)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the duration is negative or no number, if time no longer advances from
     /// event to event, or if the motion leaves the range of numbers; the world
@@ -94,6 +106,16 @@ impl<T: Real> EventDriven<T> {
     /// Lets time pass up to the given number of collisions from now, at most
     /// `longest`, and returns how many there were.
     ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// assert_eq!(world.advance_until(1, 10.0)?, 1);
+    /// assert_eq!(world.time(), 0.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`advance`](EventDriven::advance).
     pub fn advance_until(&mut self, events: u64, longest: f64) -> Result<u64, EngineError> {
@@ -104,6 +126,15 @@ impl<T: Real> EventDriven<T> {
 
     /// [`advance`](EventDriven::advance), and reports every collision on the
     /// way, in order of time, those of equal times by the bodies' indices.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// world.for_each_event(1.0, |event| assert_eq!(event.time, 0.5))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// As [`advance`](EventDriven::advance).
@@ -160,30 +191,80 @@ impl<T: Real> EventDriven<T> {
     }
 
     /// What the scene needs.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// println!("{}", world.plan());
+    /// assert_eq!(world.plan().bodies, 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn plan(&self) -> &Plan {
         self.engine.plan()
     }
 
     /// The uniform acceleration, length per time².
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// assert_eq!(world.gravity().to_array(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn gravity(&self) -> Vec3<T> {
         self.engine.gravity()
     }
 
     /// Time since the start.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn time(&self) -> f64 {
         self.engine.time()
     }
 
     /// The bodies now, in the scene's order.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// // They meet half-way and go back.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.bodies().position_of(0).x, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bodies(&self) -> Bodies<T> {
         self.engine.bodies()
     }
 
     /// Collisions since the start.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.collisions().pairs, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
         self.engine.account().collisions
@@ -191,6 +272,16 @@ impl<T: Real> EventDriven<T> {
 
     /// The sum of all impulses of the surroundings on the bodies since the
     /// start, mass × length per time.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.impulse_from_surroundings(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
         self.engine.account().impulse()
@@ -198,6 +289,17 @@ impl<T: Real> EventDriven<T> {
 
     /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
     /// length² per time: the collisions' part of the virial pressure.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// // Masses of 1 at a distance of 1 exchange an impulse of 2.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.virial(), 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
         self.engine.account().virial()
@@ -206,18 +308,48 @@ impl<T: Real> EventDriven<T> {
     /// Mean length of the flights between collisions, those under way counted
     /// up to now: the sum of all ways over the number of their ends. `None`
     /// before the first collision. In a field the ways are taken as straight.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// // Two ways of ½ that ended, two of ½ under way.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.mean_free_path(), Some(1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn mean_free_path(&self) -> Option<f64> {
         self.engine.mean_free_path()
     }
 
     /// What it took to find the collisions so far.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert!(world.effort().tried >= 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn effort(&self) -> Effort {
         self.engine.effort()
     }
 
     /// The bytes of memory that the engine holds.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = EventDriven::new(scene)?;
+    /// assert!(world.bytes() > 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.engine.bytes()

@@ -14,6 +14,7 @@ use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene};
 
 /// What becomes of the orientations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Turning {
     /// No body spins and no contact can make it.
     Never,
@@ -25,8 +26,20 @@ pub enum Turning {
     EachStep,
 }
 
-/// What a scene needs of an engine.
-#[derive(Clone, Debug)]
+/// What a scene needs of an engine. It prints as `carom explain` prints it.
+///
+/// ```
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5);
+/// let scene = Scene::<f64>::builder().gravity([0.0, 0.0, -10.0]).sphere(ball).build()?;
+/// let world = EventDriven::new(scene)?;
+/// assert!(world.plan().has_field && !world.plan().has_pairs);
+/// println!("{}", world.plan());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Plan {
     /// The engine that it is made for.
     pub engine: EngineKind,
@@ -56,8 +69,10 @@ pub struct Plan {
     pub has_pairs: bool,
     /// How many fixed features bodies meet.
     pub features: usize,
+    /// Which law contacts follow.
+    pub surface: Surface,
     /// Whether contacts read and change spins.
-    pub is_rough: bool,
+    pub changes_spins: bool,
     /// Whether radii are loaded for each body.
     pub has_radii: bool,
     /// Whether masses are loaded for each body.
@@ -81,7 +96,7 @@ impl Plan {
             EngineKind::Stepped => lanes::<T>(execution.lanes),
             EngineKind::EventDriven => search_lanes::<T>(execution.lanes, has_screening),
         };
-        let is_rough = scene.surface == Surface::Rough && scene.encounters != Encounters::None;
+        let changes_spins = scene.surface.changes_spins() && scene.encounters != Encounters::None;
         let bodies = &scene.bodies;
         let is_spinning = bodies.spin.iter().any(|column| column.iter().any(|&w| w != T::ZERO));
         let features = match scene.encounters {
@@ -89,9 +104,9 @@ impl Plan {
             _ => scene.surroundings.iter().map(|shape| shape.features().len()).sum(),
         };
         let turning = match scene.stepped.orientation {
-            _ if !is_rough && !is_spinning => Turning::Never,
+            _ if !changes_spins && !is_spinning => Turning::Never,
             OrientationUpdate::EachStep if engine == EngineKind::Stepped => Turning::EachStep,
-            _ if is_rough => Turning::FromLastContact,
+            _ if changes_spins => Turning::FromLastContact,
             _ => Turning::FromStart,
         };
         Self {
@@ -108,7 +123,8 @@ impl Plan {
             is_periodic: scene.periodic.is_some(),
             has_pairs: scene.encounters == Encounters::All && bodies.len() > 1,
             features,
-            is_rough,
+            surface: scene.surface,
+            changes_spins,
             has_radii: matches!(bodies.radius, PerBody::Each(_)),
             has_masses: matches!(bodies.mass, PerBody::Each(_)),
             turning,

@@ -76,6 +76,17 @@ impl<T: Compiled> Stepped<T> {
 impl<T: Real> Stepped<T> {
     /// Takes the whole number of steps that is nearest to `duration`, time.
     ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.advance(0.25)?;
+    /// world.advance(0.75)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the duration is negative, not finite, or more than 2⁵³ steps long.
     pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
@@ -87,6 +98,15 @@ impl<T: Real> Stepped<T> {
     /// [`advance`](Stepped::advance), and reports the collisions of each step, in
     /// order of time, those of one time by body and then by partner, fixed parts
     /// before bodies.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.for_each_event(1.0, |event| assert_eq!(event.time, 0.5))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// As [`advance`](Stepped::advance).
@@ -111,46 +131,124 @@ impl<T: Real> Stepped<T> {
     }
 
     /// Takes one step.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.step();
+    /// assert_eq!(world.steps(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn step(&mut self) {
         self.engine.take_steps(1, None);
     }
 
     /// Takes this many steps.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.advance_steps(8);
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn advance_steps(&mut self, steps: u64) {
         self.engine.take_steps(steps, None);
     }
 
     /// Takes this many steps, and reports the collisions of each as
     /// [`for_each_event`](Stepped::for_each_event) does.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// let mut times = Vec::new();
+    /// world.take_steps(8, Some(&mut |event| times.push(event.time)));
+    /// assert_eq!(times, [0.5]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>) {
         self.engine.take_steps(steps, on_event);
     }
 
     /// Length of a step, time.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// assert_eq!(world.dt(), 0.125);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn dt(&self) -> T {
         self.engine.dt()
     }
 
     /// Length of a step as the scene gives it, not as the precision rounds it.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// assert_eq!(world.exact_dt(), 0.125);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn exact_dt(&self) -> f64 {
         self.engine.exact_dt()
     }
 
     /// Steps taken.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.steps(), 8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.engine.steps()
     }
 
     /// What the scene needs.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// println!("{}", world.plan());
+    /// assert_eq!(world.plan().bodies, 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn plan(&self) -> &Plan {
         self.engine.plan()
     }
 
     /// The uniform acceleration, length per time².
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// assert_eq!(world.gravity().to_array(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn gravity(&self) -> Vec3<T> {
         self.engine.gravity()
@@ -158,18 +256,49 @@ impl<T: Real> Stepped<T> {
 
     /// Time since the start: steps times their length as the scene gives it,
     /// not as the precision rounds it.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn time(&self) -> f64 {
         self.engine.time()
     }
 
     /// The bodies now, in the scene's order, orientations brought up to date.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// // They meet half-way and go back.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.bodies().position_of(0).x, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bodies(&self) -> Bodies<T> {
         self.engine.bodies()
     }
 
     /// Collisions since the start.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.collisions().pairs, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
         self.engine.account().collisions
@@ -177,6 +306,16 @@ impl<T: Real> Stepped<T> {
 
     /// The sum of all impulses of the surroundings on the bodies since the
     /// start, mass × length per time.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.impulse_from_surroundings(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
         self.engine.account().impulse()
@@ -184,12 +323,32 @@ impl<T: Real> Stepped<T> {
 
     /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
     /// length² per time: the collisions' part of the virial pressure.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// // Masses of 1 at a distance of 1 exchange an impulse of 2.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.virial(), 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
         self.engine.account().virial()
     }
 
     /// The bytes of memory that the engine holds.
+    ///
+    /// ```
+    /// # use carom::{Stepped, Scene, Sphere};
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = Stepped::new(scene)?;
+    /// assert!(world.bytes() > 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.engine.bytes()

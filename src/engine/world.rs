@@ -1,17 +1,12 @@
 //! World: a scene in motion, by whichever engine moves it.
 
-use super::{Collisions, Compiled, EngineError, EventDriven, Execution, Listener, Plan, Stepped};
+use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
 use crate::vec3::Vec3;
 
-/// Into how many parts the duration of an event-driven run is divided: a stretch
-/// of one is over after such a part, or after one collision.
-const PARTS: f64 = 1_048_576.0;
-
-/// A scene in motion, by the engine that it names. How far it is, is told in
-/// steps or in time.
+/// A scene in motion, by the engine that it names.
 ///
 /// ```
 /// use carom::engine::{Execution, World};
@@ -19,11 +14,8 @@ const PARTS: f64 = 1_048_576.0;
 ///
 /// let scene = SceneFile::builtin("superball").ok_or("no such scene")?.build::<f64>()?;
 /// let mut world = World::new(scene, Execution::default())?;
-/// let length = world.length(1.0);
-/// while !world.advance(length, length, 1000, None)? {
-///     println!("{} collisions up to {}", world.collisions().total(), world.time());
-/// }
-/// assert!((world.time() - 1.0).abs() < 1e-3);
+/// world.for_each_event(0.5, |event| println!("sphere {} at {}", event.a, event.time))?;
+/// assert!(world.collisions().total() > 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -51,6 +43,18 @@ impl<T: Compiled> World<T> {
 
 impl<T: Real> World<T> {
     /// What the scene needs.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// println!("{}", world.plan());
+    /// assert_eq!(world.plan().bodies, 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn plan(&self) -> &Plan {
         match self {
@@ -60,6 +64,19 @@ impl<T: Real> World<T> {
     }
 
     /// The bodies now.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// // They meet half-way and go back.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.bodies().position_of(0).x, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bodies(&self) -> Bodies<T> {
         match self {
@@ -69,6 +86,17 @@ impl<T: Real> World<T> {
     }
 
     /// The uniform acceleration, length per time².
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// assert_eq!(world.gravity().to_array(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn gravity(&self) -> Vec3<T> {
         match self {
@@ -78,6 +106,18 @@ impl<T: Real> World<T> {
     }
 
     /// Time since the start.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn time(&self) -> f64 {
         match self {
@@ -87,6 +127,18 @@ impl<T: Real> World<T> {
     }
 
     /// Steps taken.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.steps(), 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn steps(&self) -> u64 {
         match self {
@@ -96,6 +148,18 @@ impl<T: Real> World<T> {
     }
 
     /// Collisions since the start.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.collisions().pairs, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
         match self {
@@ -104,58 +168,72 @@ impl<T: Real> World<T> {
         }
     }
 
-    /// How far a run of this duration goes: the whole number of steps nearest to
-    /// it, at least one, or the time itself. A checked scene has no more steps
-    /// than can be counted.
-    #[must_use]
-    pub fn length(&self, duration: f64) -> f64 {
-        match self {
-            Self::Stepped(world) => (duration / world.exact_dt()).round().max(1.0),
-            Self::EventDriven(_) => duration,
-        }
-    }
-
-    /// How far the world is.
-    #[must_use]
-    pub fn place(&self) -> f64 {
-        match self {
-            Self::Stepped(world) => world.steps() as f64,
-            Self::EventDriven(world) => world.time(),
-        }
-    }
-
-    /// Goes on towards `mark` on a way of the given length, and returns whether
-    /// it is there. A `stretch` is so many steps, or collisions, or parts of the
-    /// way without any: a world where much happens comes back too.
+    /// Lets time pass: the whole number of steps nearest to the duration, or the
+    /// duration itself.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(0.25)?;
+    /// world.advance(0.75)?;
+    /// assert_eq!(world.time(), 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// Of the event-driven engine, see
-    /// [`advance_to`](EventDriven::advance_to).
-    pub fn advance(
-        &mut self,
-        mark: f64,
-        length: f64,
-        stretch: u64,
-        on_event: Listener<'_, T>,
-    ) -> Result<bool, EngineError> {
+    /// Those of the engine's own `advance`.
+    pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
         match self {
-            Self::Stepped(world) => {
-                let left = (mark - world.steps() as f64).ceil() as u64;
-                let steps = stretch.min(left);
-                world.take_steps(steps, on_event);
-                Ok(steps == left)
-            }
-            Self::EventDriven(world) => {
-                let end = world.time() + length * (stretch as f64 / PARTS);
-                let is_last = end >= mark;
-                let end = if is_last { mark } else { end };
-                Ok(world.advance_to(end, stretch, on_event)? && is_last)
-            }
+            Self::Stepped(world) => world.advance(duration),
+            Self::EventDriven(world) => world.advance(duration),
+        }
+    }
+
+    /// [`advance`](World::advance), and reports every collision on the way, in order
+    /// of time.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.for_each_event(1.0, |event| assert_eq!(event.time, 0.5))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`advance`](World::advance).
+    pub fn for_each_event(
+        &mut self,
+        duration: f64,
+        on_event: impl FnMut(&Event<T>),
+    ) -> Result<(), EngineError> {
+        match self {
+            Self::Stepped(world) => world.for_each_event(duration, on_event),
+            Self::EventDriven(world) => world.for_each_event(duration, on_event),
         }
     }
 
     /// The impulse of the surroundings on the bodies so far, mass × length per
     /// time.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.impulse_from_surroundings(), [0.0; 3]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
         match self {
@@ -165,6 +243,19 @@ impl<T: Real> World<T> {
     }
 
     /// `Σ σ|J_n|` over the pair collisions so far, mass × length² per time.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// // Masses of 1 at a distance of 1 exchange an impulse of 2.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.virial(), 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
         match self {
@@ -174,6 +265,19 @@ impl<T: Real> World<T> {
     }
 
     /// Mean length of the flights between collisions, where the engine knows it.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// // Two ways of ½ that ended, two of ½ under way.
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.mean_free_path(), Some(1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn mean_free_path(&self) -> Option<f64> {
         match self {
@@ -183,6 +287,17 @@ impl<T: Real> World<T> {
     }
 
     /// The bytes that it holds.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// assert!(world.bytes() > 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
         match self {

@@ -29,6 +29,14 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// Where a point that has left its space is put.
+///
+/// ```
+/// use carom::motion::flight::Wrap;
+/// use carom::{PeriodicBox, Vec3};
+///
+/// let space = PeriodicBox::new([0.0; 3], [10.0; 3]);
+/// assert_eq!(space.wrap(Vec3::new(11.0, 5.0, -1.0)), Vec3::new(1.0, 5.0, 9.0));
+/// ```
 pub trait Wrap<T: Real>: Copy + Send + Sync {
     /// The image of a point that represents it, length.
     fn wrap<L: Lane<Scalar = T>>(self, point: Vec3<L>) -> Vec3<L>;
@@ -39,6 +47,8 @@ pub trait Wrap<T: Real>: Copy + Send + Sync {
 ///
 /// `position` in length, `velocity` in length per time, one column for each
 /// component. As many bodies move as the shortest column has.
+///
+/// See the [module](self) for an example.
 pub fn flight<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
     position: [&mut [L::Scalar]; 3],
     velocity: [&mut [L::Scalar]; 3],
@@ -50,7 +60,25 @@ pub fn flight<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
 }
 
 /// [`flight`], and the greatest `v·v` of all bodies after it, in the same
-/// sweep. NaN counts for nothing; without bodies it is 0.
+/// sweep. NaN does not count; without bodies it is 0.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::flight::flight_and_fastest;
+/// use carom::motion::integrator::Coasting;
+/// use carom::space::OpenSpace;
+///
+/// let (mut x, mut y, mut z) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+/// let (mut u, mut v, mut w) = ([3.0, 1.0], [4.0, 0.0], [0.0; 2]);
+/// let fastest = flight_and_fastest::<f64, Coasting, _>(
+///     [&mut x, &mut y, &mut z],
+///     [&mut u, &mut v, &mut w],
+///     Vec3::ZERO,
+///     0.5,
+///     OpenSpace,
+/// );
+/// assert_eq!((fastest, x), (25.0, [1.5, 0.5]));
+/// ```
 pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
     position: [&mut [L::Scalar]; 3],
     velocity: [&mut [L::Scalar]; 3],
@@ -64,6 +92,22 @@ pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
 impl Integrator {
     /// [`flight`] by the integrator of this name; without a field, by
     /// [`Coasting`].
+    ///
+    /// ```
+    /// use carom::space::OpenSpace;
+    /// use carom::{Integrator, Vec3};
+    ///
+    /// let (mut x, mut y, mut z) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+    /// let (mut u, mut v, mut w) = ([1.0; 4], [0.0; 4], [0.0; 4]);
+    /// Integrator::VelocityVerlet.flight::<wide::f64x4, _>(
+    ///     [&mut x, &mut y, &mut z],
+    ///     [&mut u, &mut v, &mut w],
+    ///     Some(Vec3::new(0.0, 0.0, -8.0)),
+    ///     0.5,
+    ///     OpenSpace,
+    /// );
+    /// assert_eq!((x[0], z[0], w[0]), (0.5, -1.0, -4.0));
+    /// ```
     pub fn flight<L: Lane, S: Wrap<L::Scalar>>(
         self,
         position: [&mut [L::Scalar]; 3],

@@ -12,9 +12,15 @@ use crate::lane::Lane;
 use crate::vec3::Vec3;
 
 /// One step of length `Δt` in a uniform acceleration `a`.
+///
+/// ```
+/// use carom::Integrator;
+/// assert_eq!(Integrator::VelocityVerlet.to_string(), "velocity Verlet");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum Integrator {
     /// [`SemiImplicitEuler`]: each step loses `Δt²|a|²m/2` of energy.
     #[default]
@@ -36,18 +42,47 @@ impl fmt::Display for Integrator {
 }
 
 /// Position after flying with constant velocity: `c + vΔt`, length.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::integrator::drift;
+/// assert_eq!(drift(Vec3::ZERO, Vec3::new(1.0, 0.0, 2.0), 0.5), Vec3::new(0.5, 0.0, 1.0));
+/// ```
 #[inline(always)]
 pub fn drift<L: Lane>(position: Vec3<L>, velocity: Vec3<L>, dt: L) -> Vec3<L> {
     position + velocity * dt
 }
 
 /// Velocity after a constant acceleration: `v + aΔt`, length per time.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::integrator::kick;
+/// assert_eq!(kick(Vec3::ZERO, Vec3::new(0.0, 0.0, -10.0), 0.5), Vec3::new(0.0, 0.0, -5.0));
+/// ```
 #[inline(always)]
 pub fn kick<L: Lane>(velocity: Vec3<L>, acceleration: Vec3<L>, dt: L) -> Vec3<L> {
     velocity + acceleration * dt
 }
 
 /// A step of free flight as a type.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::integrator::{FlightStep, SemiImplicitEuler, VelocityVerlet};
+///
+/// /// The height after a second of fall in steps of 1/8 s.
+/// fn height<I: FlightStep>() -> f64 {
+///     let gravity = Vec3::new(0.0, 0.0, -8.0);
+///     let mut state = (Vec3::ZERO, Vec3::ZERO);
+///     for _ in 0..8 {
+///         state = I::step(state.0, state.1, gravity, 0.125);
+///     }
+///     state.0.z
+/// }
+/// assert_eq!(height::<VelocityVerlet>(), -4.0);
+/// assert_eq!(height::<SemiImplicitEuler>(), -4.5);
+/// ```
 pub trait FlightStep {
     /// Whether the step can change a velocity; if not, sweeps store none.
     const CHANGES_VELOCITY: bool = true;
@@ -63,8 +98,8 @@ pub trait FlightStep {
     ) -> (Vec3<L>, Vec3<L>);
 }
 
-/// No field: `c += vΔt`. The acceleration is not looked at.
-#[derive(Clone, Copy, Debug)]
+/// No field: `c += vΔt`. The acceleration is not read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coasting;
 
 impl FlightStep for Coasting {
@@ -90,7 +125,7 @@ impl FlightStep for Coasting {
 /// assert_eq!(v, Vec3::new(1.0, 0.0, -5.0));
 /// assert_eq!(c, Vec3::new(0.5, 0.0, -2.5));
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
 
 impl FlightStep for SemiImplicitEuler {
@@ -102,7 +137,7 @@ impl FlightStep for SemiImplicitEuler {
 }
 
 /// Position first: `c += vΔt; v += aΔt`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExplicitEuler;
 
 impl FlightStep for ExplicitEuler {
@@ -114,7 +149,7 @@ impl FlightStep for ExplicitEuler {
 
 /// `c += vΔt + ½aΔt²; v += aΔt`, as a drift with the mean velocity
 /// `v + ½aΔt`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VelocityVerlet;
 
 impl FlightStep for VelocityVerlet {

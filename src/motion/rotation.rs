@@ -18,6 +18,14 @@ use crate::vec3::Vec3;
 ///
 /// `spin` in rad per time, for `|w|²` neither under- nor overflowing; error of
 /// the elements a few ε and `ε|w|t`.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::rotation::reference_rotation;
+/// let half_turn = reference_rotation(Vec3::new(0.0, 0.0, core::f64::consts::PI), 1.0);
+/// let x_axis = half_turn * Vec3::new(1.0, 0.0, 0.0);
+/// assert!((x_axis - Vec3::new(-1.0, 0.0, 0.0)).length() < 1e-15);
+/// ```
 #[inline(always)]
 pub fn reference_rotation<L: Lane>(spin: Vec3<L>, time: L) -> Mat3<L> {
     let unit_z = Vec3::new(L::ZERO, L::ZERO, L::ONE);

@@ -2,7 +2,7 @@
 //!
 //! A formula of this crate is one function, generic over [`Lane`]. With a lane
 //! type of one real (`f32`, `f64`) it is the scalar reference path; with a pack
-//! of `wide` it works on 2 to 16 bodies at a time. Every operation of the trait
+//! of `wide` it works on 4 to 16 bodies at a time. Every operation of the trait
 //! is exact or correctly rounded, and nothing fuses or reorders, so a pack
 //! gives in each lane the bits that the scalar path gives.
 //!
@@ -20,7 +20,6 @@
 
 mod pack;
 mod twin;
-mod widened;
 
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -28,9 +27,17 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use crate::real::Real;
 
 pub use twin::Twin;
-pub use widened::Widened;
 
 /// One truth value for each lane.
+///
+/// ```
+/// use carom::lane::{Lane, Mask};
+/// use wide::f64x4;
+///
+/// let is_less = Lane::lt(f64x4::new([1.0, 5.0, 2.0, 9.0]), f64x4::splat(4.0));
+/// assert_eq!(is_less.bits(), 0b0101);
+/// assert!(is_less.any() && !is_less.all());
+/// ```
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
@@ -86,6 +93,14 @@ pub trait Lane:
     fn to_array(self) -> Self::Array;
 
     /// Splits a column into whole arrays and the tail that fills none.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// use wide::f64x4;
+    ///
+    /// let (arrays, tail) = f64x4::arrays(&[1.0, 2.0, 3.0, 4.0, 5.0]);
+    /// assert_eq!((arrays, tail), ([[1.0, 2.0, 3.0, 4.0]].as_slice(), [5.0].as_slice()));
+    /// ```
     fn arrays(column: &[Self::Scalar]) -> (&[Self::Array], &[Self::Scalar]);
 
     /// Splits a column into whole arrays and the tail that fills none.
@@ -110,6 +125,17 @@ pub trait Lane:
     fn same(self, other: Self) -> Self::Mask;
 
     /// `yes` where the mask is true, `no` elsewhere.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// use wide::f64x4;
+    ///
+    /// fn positive_part<L: Lane>(x: L) -> L {
+    ///     L::select(x.gt(L::ZERO), x, L::ZERO)
+    /// }
+    /// let x = f64x4::new([-1.0, 2.0, 0.0, 3.0]);
+    /// assert_eq!(positive_part(x).to_array(), [0.0, 2.0, 0.0, 3.0]);
+    /// ```
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     /// `self > other`.
@@ -126,6 +152,12 @@ pub trait Lane:
 
     /// The constant `numerator/denominator`, rounded in the lane's own
     /// precision.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// assert_eq!(f32::ratio(1, 10), 0.1);
+    /// assert_eq!(f64::ratio(1, 10), 0.1);
+    /// ```
     #[inline(always)]
     fn ratio(numerator: i32, denominator: i32) -> Self {
         Self::splat(Self::Scalar::whole(numerator) / Self::Scalar::whole(denominator))
@@ -145,6 +177,11 @@ pub trait Lane:
 
     /// The nearest whole number, ties to even; the value itself from
     /// [`Real::WHOLE_FROM`] up, where every number is whole.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// assert_eq!([2.4, 2.5, -0.7, 1e300].map(f64::nearest_whole), [2.0, 2.0, -1.0, 1e300]);
+    /// ```
     #[inline(always)]
     fn nearest_whole(self) -> Self {
         let is_small = self.abs().lt(Self::splat(Self::Scalar::WHOLE_FROM));
@@ -169,7 +206,17 @@ pub trait Lane:
         Self::from_array(Self::arrays(&column[..Self::WIDTH]).0[0])
     }
 
-    /// Writes the lanes to the first `WIDTH` places of a column.
+    /// Writes the lanes to the first `WIDTH` elements of a column.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// use wide::f64x4;
+    ///
+    /// let mut column = [1.0, 2.0, 3.0, 4.0, 5.0];
+    /// let doubled = f64x4::load(&column) + f64x4::load(&column);
+    /// doubled.store(&mut column);
+    /// assert_eq!(column, [2.0, 4.0, 6.0, 8.0, 5.0]);
+    /// ```
     ///
     /// # Panics
     /// If the column is shorter than `WIDTH`.
@@ -180,20 +227,26 @@ pub trait Lane:
     }
 
     /// Up to `WIDTH` values of a column; lanes past its end take `padding`.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// use wide::f64x4;
+    /// assert_eq!(f64x4::load_tail(&[1.0, 2.0], 0.0).to_array(), [1.0, 2.0, 0.0, 0.0]);
+    /// ```
     #[inline(always)]
     fn load_tail(column: &[Self::Scalar], padding: Self::Scalar) -> Self {
         Self::from_fn(|k| column.get(k).copied().unwrap_or(padding))
     }
 
-    /// Writes as many lanes as the column has places, up to `WIDTH`.
-    #[inline(always)]
-    fn store_tail(self, column: &mut [Self::Scalar]) {
-        for (place, value) in column.iter_mut().zip(self.to_array().as_ref()) {
-            *place = *value;
-        }
-    }
-
     /// Lane `k` is `column[indices[k]]`.
+    ///
+    /// ```
+    /// use carom::lane::Lane;
+    /// use wide::f64x4;
+    ///
+    /// let lanes = f64x4::gather(&[10.0, 20.0, 30.0], &[2, 0, 0, 1]);
+    /// assert_eq!(lanes.to_array(), [30.0, 10.0, 10.0, 20.0]);
+    /// ```
     ///
     /// # Panics
     /// If there are fewer than `WIDTH` indices, or one is past the column's end.
@@ -212,17 +265,5 @@ pub trait Lane:
     fn transpose(records: &[&[Self::Scalar; 8]]) -> [Self; 8] {
         let records = &records[..Self::WIDTH];
         core::array::from_fn(|j| Self::from_fn(|k| records[k][j]))
-    }
-
-    /// `column[indices[k]]` becomes lane `k`. Indices that occur twice keep the
-    /// last lane's value.
-    ///
-    /// # Panics
-    /// If there are fewer than `WIDTH` indices, or one is past the column's end.
-    #[inline(always)]
-    fn scatter(self, column: &mut [Self::Scalar], indices: &[u32]) {
-        for (value, index) in self.to_array().as_ref().iter().zip(&indices[..Self::WIDTH]) {
-            column[*index as usize] = *value;
-        }
     }
 }

@@ -17,6 +17,18 @@ pub use double_double::DoubleDouble;
 ///
 /// A `Real` is a lane of one, so a formula over [`Lane`] takes it as it is:
 /// that is the scalar reference path.
+///
+/// ```
+/// use carom::real::Real;
+///
+/// /// The time of fall from a height, in any precision.
+/// fn fall<T: Real>(height: T, gravity: T) -> T {
+///     (T::whole(2) * height / gravity).sqrt()
+/// }
+/// assert_eq!(fall(5.0_f32, 10.0), 1.0);
+/// assert_eq!(fall(5.0_f64, 10.0), 1.0);
+/// assert_eq!((f32::NAME, f64::from_f64(0.5), 0.5_f32.to_f64()), ("f32", 0.5, 0.5));
+/// ```
 pub trait Real:
     Lane<Scalar = Self, Mask = bool, Array = [Self; 1]> + Num + PartialOrd + Display + LowerExp
 {
@@ -30,8 +42,8 @@ pub trait Real:
     /// allocates, for its alignment and its padding.
     type Block: Copy + Send + Sync + core::fmt::Debug;
 
-    /// A precision no finer than this one and faster, good enough to tell whom a
-    /// body cannot meet.
+    /// A precision no finer than this one and faster, good enough to rule out
+    /// contacts.
     type Coarse: Real;
 
     /// What the scene file and the summary call this precision.
@@ -52,9 +64,9 @@ pub trait Real:
     /// that is a sum itself and whose products lose too little to matter.
     const SPLITTER: Self;
 
-    /// As many quarter turns as one multiplication `x·2/π` can count to within
+    /// The most quarter turns that one multiplication `x·2/π` can count to within
     /// 1/16 of one: `2^(digits − 6)`.
-    const QUARTER_TURNS_TOLD: Self;
+    const MOST_QUARTER_TURNS: Self;
 
     /// π/2 as a sum of three parts, greatest first: three times the digits of
     /// one number, which is what the worst cases of argument reduction need.
@@ -75,7 +87,8 @@ pub trait Real:
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
 
-    /// The nearest number of another precision.
+    /// The nearest number of another precision: the same number if that is no
+    /// coarser.
     ///
     /// ```
     /// use carom::real::Real;
@@ -142,7 +155,7 @@ macro_rules! real {
             const ROUNDING_MAGIC: Self = 1.5 / $real::EPSILON;
             const WHOLE_FROM: Self = 1.0 / $real::EPSILON;
             const SPLITTER: Self = $splitter;
-            const QUARTER_TURNS_TOLD: Self = 1.0 / (32.0 * $real::EPSILON);
+            const MOST_QUARTER_TURNS: Self = 1.0 / (32.0 * $real::EPSILON);
             const QUARTER_TURN: [Self; 3] = $quarter_turn;
 
             #[inline(always)]

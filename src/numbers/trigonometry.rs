@@ -12,7 +12,7 @@ use crate::real::Real;
 /// Sine and cosine of an angle in rad.
 ///
 /// With `ε` the distance from 1 to the next number, `q` =
-/// [`Real::QUARTER_TURNS_TOLD`] (2¹⁸ for `f32`, 2⁴⁷ for `f64`) and `d` = 1/ε
+/// [`Real::MOST_QUARTER_TURNS`] (2¹⁸ for `f32`, 2⁴⁷ for `f64`) and `d` = 1/ε
 /// (2²³, 2⁵²):
 ///
 /// | angle up to | error |
@@ -40,10 +40,17 @@ pub fn sin_cos<L: Lane>(x: L) -> (L, L) {
 ///
 /// `tail` is what rounding left out of `head`, a unit or two of its last place.
 /// The bounds are those of [`sin_cos`]; the sine of −0 is 0.
+///
+/// ```
+/// use carom::trigonometry::sin_cos_of_sum;
+/// let tail_of_pi = 1.2246467991473532e-16;
+/// let (sine, _) = sin_cos_of_sum(core::f64::consts::PI, tail_of_pi);
+/// assert!(sine.abs() < 1e-32);
+/// ```
 #[inline(always)]
 pub fn sin_cos_of_sum<L: Lane>(head: L, tail: L) -> (L, L) {
     let [quarter_turn, ..] = L::Scalar::QUARTER_TURN;
-    let is_far = head.abs().gt(L::splat(L::Scalar::QUARTER_TURNS_TOLD * quarter_turn));
+    let is_far = head.abs().gt(L::splat(L::Scalar::MOST_QUARTER_TURNS * quarter_turn));
     let (head, tail) = if is_far.any() {
         let (near_head, near_tail) = without_whole_turns(head, tail);
         (L::select(is_far, near_head, head), L::select(is_far, near_tail, tail))
@@ -91,16 +98,16 @@ fn without_quarter_turns<L: Lane>(head: L, tail: L, quarters: L) -> (L, L) {
     two_sum(head, tail + ((lost - error) - quarters * third))
 }
 
-/// An angle of more quarter turns than can be told, less whole turns: few
-/// enough quarter turns are left, or none where an angle is so great that not
-/// even turns can be told.
+/// An angle of more quarter turns than can be counted, less whole turns: few
+/// enough quarter turns are left, or none where the angle is too great to count
+/// even turns.
 #[cold]
 fn without_whole_turns<L: Lane>(head: L, tail: L) -> (L, L) {
     let [quarter_turn, ..] = L::Scalar::QUARTER_TURN;
     let four = L::ratio(4, 1);
     let turns = (head * L::splat(L::Scalar::ratio(1, 4) / quarter_turn)).nearest_whole();
     let (near, rest) = without_quarter_turns(head, tail, turns * four);
-    let most = L::Scalar::QUARTER_TURNS_TOLD * L::Scalar::WHOLE_FROM * L::Scalar::ratio(1, 8);
+    let most = L::Scalar::MOST_QUARTER_TURNS * L::Scalar::WHOLE_FROM * L::Scalar::ratio(1, 8);
     let is_lost = head.abs().gt(L::splat(most));
     // Infinity times 0 is NaN.
     (L::select(is_lost, head * L::ZERO, near), L::select(is_lost, L::ZERO, rest))

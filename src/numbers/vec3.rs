@@ -10,12 +10,12 @@ use crate::real::Real;
 /// ```
 /// use carom::vec3::Vec3;
 ///
-/// let mut place = Vec3::new(1.0, 0.0, 0.0) + Vec3::from([0.0, 2.0, 2.0]) * 0.5;
-/// assert_eq!(place.to_array(), [1.0, 1.0, 1.0]);
-/// place -= -Vec3::new(0.0, 0.0, 1.0);
-/// assert_eq!(place.z, 2.0);
+/// let mut point = Vec3::new(1.0, 0.0, 0.0) + Vec3::from([0.0, 2.0, 2.0]) * 0.5;
+/// assert_eq!(point.to_array(), [1.0, 1.0, 1.0]);
+/// point -= -Vec3::new(0.0, 0.0, 1.0);
+/// assert_eq!(point.z, 2.0);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<L> {
     /// First component.
     pub x: L,
@@ -203,25 +203,6 @@ impl<L: Lane> Vec3<L> {
     pub fn gather(columns: [&[L::Scalar]; 3], indices: &[u32]) -> Self {
         let [x, y, z] = columns;
         Self::new(L::gather(x, indices), L::gather(y, indices), L::gather(z, indices))
-    }
-
-    /// Element `indices[k]` of the three columns becomes lane `k`.
-    ///
-    /// ```
-    /// use carom::vec3::Vec3;
-    /// let (mut x, mut y, mut z) = ([1.0, 2.0], [3.0, 4.0], [5.0, 6.0]);
-    /// Vec3::new(7.0, 8.0, 9.0).scatter([&mut x, &mut y, &mut z], &[0]);
-    /// assert_eq!((x, y, z), ([7.0, 2.0], [8.0, 4.0], [9.0, 6.0]));
-    /// ```
-    ///
-    /// # Panics
-    /// As [`Lane::scatter`].
-    #[inline(always)]
-    pub fn scatter(self, columns: [&mut [L::Scalar]; 3], indices: &[u32]) {
-        let [x, y, z] = columns;
-        self.x.scatter(x, indices);
-        self.y.scatter(y, indices);
-        self.z.scatter(z, indices);
     }
 }
 

@@ -21,6 +21,15 @@ pub struct Energy {
 
 impl Energy {
     /// The energy of bodies in a uniform field of acceleration `gravity`.
+    ///
+    /// ```
+    /// use carom::{Bodies, Energy, Vec3};
+    /// let ball = Bodies::from_positions(&[[0.0, 0.0, 2.0]]).spins(&[[0.0, 0.0, 10.0]]);
+    /// let energy = Energy::of(&ball.radius(0.5).build()?, Vec3::new(0.0, 0.0, -10.0));
+    /// assert_eq!((energy.potential, energy.rotational), (20.0, 5.0));
+    /// assert_eq!((energy.kinetic(), energy.total()), (5.0, 25.0));
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<T>) -> Self {
         let gravity = gravity.cast::<f64>();

@@ -11,7 +11,19 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// Temperature of the two kinds of motion, in units of energy (`k = 1`).
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// ```
+/// use carom::{Bodies, Temperature};
+/// let positions = [[0.0; 3], [2.0, 0.0, 0.0]];
+/// let bodies = Bodies::from_positions(&positions)
+///     .velocities(&[[0.0, 3.0, 0.0], [0.0, -3.0, 0.0]])
+///     .radius(0.5)
+///     .build()?;
+/// let temperature = Temperature::of(&bodies).unwrap();
+/// assert_eq!((temperature.translational, temperature.rotational), (6.0, 0.0));
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "files", derive(Serialize))]
 pub struct Temperature {
     /// Of the centres, `kT = (2 E_trans − P²/M) / 3(N − 1)`: of their motion
@@ -55,7 +67,7 @@ impl fmt::Display for Temperature {
 ///
 /// ```
 /// use carom::observe::compressibility;
-/// // Nobody met anybody: an ideal gas, but for the fixed momentum.
+/// // No collision: an ideal gas, but for the fixed momentum.
 /// assert_eq!(compressibility(1000, 0.0, 1.0, 10.0), 0.999);
 /// assert_eq!(compressibility(1000, 30_000.0, 1.0, 10.0), 1.999);
 /// ```

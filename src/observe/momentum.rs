@@ -11,16 +11,24 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// Momentum of all bodies, `Σ m v`, mass × length per time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Momentum(pub Vec3<f64>);
 
 /// Angular momentum of all bodies about the origin, `Σ (m c × v + I w)`,
 /// mass × length² per time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AngularMomentum(pub Vec3<f64>);
 
 impl Momentum {
     /// The momentum of bodies.
+    ///
+    /// ```
+    /// use carom::{Bodies, Momentum};
+    /// let ball = Bodies::from_positions(&[[0.0; 3]]).velocities(&[[3.0, 0.0, 0.0]]);
+    /// let ball = ball.radius(0.5).mass(2.0).build()?;
+    /// assert_eq!(Momentum::of(&ball).0.to_array(), [6.0, 0.0, 0.0]);
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
         Self(total(bodies, |index| {
@@ -31,6 +39,14 @@ impl Momentum {
 
 impl AngularMomentum {
     /// The angular momentum of bodies about the origin.
+    ///
+    /// ```
+    /// use carom::{AngularMomentum, Bodies};
+    /// let ball = Bodies::from_positions(&[[0.0; 3]]).spins(&[[0.0, 0.0, 10.0]]);
+    /// let ball = ball.radius(0.5).build()?;
+    /// assert_eq!(AngularMomentum::of(&ball).0.z, 1.0);
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
         Self(total(bodies, |index| {

@@ -31,9 +31,18 @@ impl Serialize for StateHash {
 /// The bytes are those of each body in the order of the scene file: centre
 /// `x y z`, velocity, angular velocity, then the orientation's nine elements row
 /// by row, each number as [`Real::write_bits`] gives it (`f32` and `f64`: little
-/// endian). Orientations that nobody stored count as the identity that they are.
+/// endian). Orientations that are not stored count as the identity that they are.
 /// Radii and masses do not count: they never change. The two zeros are
 /// different bits.
+///
+/// ```
+/// use carom::{Bodies, state_hash};
+/// let at = |x: f64| Bodies::from_positions(&[[x, 0.0, 0.0]]).radius(0.5).build();
+/// assert_eq!(state_hash(&at(1.0)?), state_hash(&at(1.0)?));
+/// assert_ne!(state_hash(&at(0.0)?), state_hash(&at(-0.0)?));
+/// assert_eq!(state_hash(&at(1.0)?).to_string().len(), 18);
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
 #[must_use]
 pub fn state_hash<T: Real>(bodies: &Bodies<T>) -> StateHash {
     const BODIES_AT_ONCE: usize = 256;

@@ -6,7 +6,21 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// What motion conserves, or changes by a known amount.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// ```
+/// use carom::observe::Totals;
+/// use carom::{Bodies, Vec3};
+///
+/// let ball = Bodies::from_positions(&[[0.0, 2.0, 0.0]]).velocities(&[[3.0, 0.0, 0.0]]);
+/// let totals = Totals::of(&ball.radius(0.5).build()?, Vec3::ZERO);
+/// assert_eq!(totals.energy.total(), 4.5);
+/// assert_eq!(totals.momentum.0.x, 3.0);
+/// assert_eq!(totals.angular_momentum.0.z, -6.0);
+/// assert!(totals.is_finite());
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Totals {
     /// Energy, mass × length² per time².
     pub energy: Energy,

@@ -18,25 +18,16 @@ pub const STATE_COLUMNS: [&str; 21] = [
 /// bits in the scene's precision.
 ///
 /// ```
-/// # use carom::bodies::{Bodies, PerBody};
-/// # use carom::column::Column;
-/// # let columns = |values: [f64; 3]| values.map(|value| Column::new(1, value));
-/// # let ball = Bodies {
-/// #     position: columns([0.1, 0.0, 2.0]),
-/// #     velocity: columns([1e-9, 0.0, 0.0]),
-/// #     spin: columns([0.0; 3]),
-/// #     orientation: None,
-/// #     radius: PerBody::Same(0.5),
-/// #     mass: PerBody::Same(2.0),
-/// #     inertia: PerBody::Same(0.2),
-/// # };
+/// # use carom::Bodies;
+/// # let ball = Bodies::from_positions(&[[0.1, 0.0, 2.0]]).velocities(&[[1e-9, 0.0, 0.0]]);
+/// # let ball = ball.radius(0.5).mass(2.0).build()?;
 /// let mut text = Vec::new();
 /// carom::output::write_state(&mut text, &ball)?;
 /// let rows = String::from_utf8_lossy(&text);
 /// assert!(rows.ends_with(
 ///     "\n0,0.1,0.0,2.0,1e-9,0.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,1.0,0.5,2.0\n"
 /// ));
-/// # Ok::<(), std::io::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors

@@ -3,11 +3,10 @@
 use core::f64::consts::PI;
 
 use super::error::Problem;
-use super::neighbours::Neighbours;
+use super::obstacles::Obstacles;
 use super::random::Random;
 use super::spheres::{Arrangement, Spread};
-use crate::surroundings::Feature;
-use crate::vec3::Vec3;
+use crate::space::neighbours::Neighbours;
 
 /// The packing fraction where random sequential insertion of equal spheres
 /// ends: 0.3841 (Zhang and Torquato, Physical Review E 88, 053312, 2013).
@@ -192,7 +191,7 @@ impl Lattice {
 pub(super) fn free_place(
     region: &Region,
     radius: f64,
-    fixed: &[Feature<f64>],
+    fixed: &Obstacles<f64>,
     neighbours: Option<&Neighbours>,
     random: &mut Random,
     attempts: &mut u64,
@@ -201,9 +200,8 @@ pub(super) fn free_place(
     while *attempts > 0 {
         *attempts -= 1;
         let center = bounds.map(|[least, greatest]| random.between(least, greatest));
-        let is_free =
-            fixed.iter().all(|feature| feature.clearance(Vec3::from(center), radius).gap >= 0.0)
-                && neighbours.is_none_or(|table| table.overlapping(center, radius).is_none());
+        let is_free = fixed.leave_free(center.into(), radius)
+            && neighbours.is_none_or(|table| table.overlapping(center, radius).is_none());
         if is_free {
             return Some(center);
         }

@@ -32,7 +32,7 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
     let is_periodic = !matches!(asked.periodic, Periodicity::Open);
     for (index, given) in asked.surroundings.iter().enumerate() {
         let entry = format!("surroundings[{index}]");
-        let shape = given.rounded;
+        let shape = &given.rounded;
         shape.check().map_err(|mistake| origin.error_in(&entry, mistake))?;
         if is_periodic && shape.bounds().is_none() {
             let what = shape.interior().map_or(shape.name(), |_| "container");

@@ -6,13 +6,14 @@ use core::ops::Range;
 use super::check::{Found, figures};
 use super::description::Description;
 use super::error::{Problem, SceneError};
-use super::neighbours::{Neighbours, largest, tolerance};
+use super::obstacles::{Misplaced, Obstacles};
 use super::settings::Encounters;
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::space::PeriodicBox;
-use crate::surroundings::Shape;
+use crate::space::neighbours::{Neighbours, largest, tolerance};
+use crate::surroundings::{Feature, Shape};
 use crate::vec3::Vec3;
 
 /// Checks all bodies. Centres on the upper face of the periodic box move to
@@ -37,13 +38,19 @@ pub(super) fn bodies<T: Real>(
         wrap(space, &mut bodies).map_err(of_entry)?;
     }
     if asked.encounters != Encounters::None {
-        for (index, given) in asked.surroundings.iter().enumerate() {
-            if let Some(space) = &periodic {
-                within(&given.rounded, space, &bodies).map_err(|problem| {
+        let shapes: Vec<_> = asked.surroundings.iter().map(|given| given.rounded).collect();
+        let misplaced = surroundings(&shapes, &bodies);
+        let first = misplaced.as_ref().map_or(shapes.len(), |misplaced| misplaced.0 + 1);
+        if let Some(space) = &periodic {
+            let radius = bodies.radius.greatest();
+            for (index, shape) in shapes[..first].iter().enumerate() {
+                within(shape, space, radius).map_err(|problem| {
                     asked.origin.error(format!("surroundings[{index}]"), problem)
                 })?;
             }
-            surroundings(index, &given.rounded, &bodies).map_err(of_entry)?;
+        }
+        if let Some((_, found)) = misplaced {
+            return Err(of_entry(found));
         }
     }
     if asked.encounters == Encounters::All {
@@ -132,15 +139,10 @@ fn wrap<T: Real>(space: &PeriodicBox<T>, bodies: &mut Bodies<T>) -> Result<(), F
 
 /// What is solid in a periodic box must be met from one side of it only: the
 /// images of what is fixed are not looked for.
-fn within<T: Real>(
-    shape: &Shape<T>,
-    space: &PeriodicBox<T>,
-    bodies: &Bodies<T>,
-) -> Result<(), Problem> {
+fn within<T: Real>(shape: &Shape<T>, space: &PeriodicBox<T>, radius: T) -> Result<(), Problem> {
     let Some([lower, upper]) = shape.bounds() else {
         return Ok(());
     };
-    let radius = bodies.radius.greatest();
     let [low, high] = [(lower - space.lower).to_array(), (space.upper - upper).to_array()];
     if low.iter().chain(&high).all(|margin| *margin >= radius) {
         return Ok(());
@@ -154,34 +156,28 @@ fn within<T: Real>(
     })
 }
 
-/// No body is inside of something solid, or outside of its container.
-fn surroundings<T: Real>(index: usize, shape: &Shape<T>, bodies: &Bodies<T>) -> Result<(), Found> {
+/// The first body that is inside of something solid or outside of its container,
+/// at the first such shape.
+fn surroundings<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Option<(usize, Found)> {
     let epsilon = T::EPSILON.to_f64();
-    for feature in shape.features() {
-        let far = feature.farthest();
-        for body in 0..bodies.len() {
-            let center = bodies.position_of(body);
-            let radius = bodies.radius.of(body);
-            let gap = feature.clearance(center, radius).gap.to_f64();
-            let coordinate = largest(center.cast().to_array()) + far;
-            if gap >= -tolerance(epsilon, coordinate, radius.to_f64()) {
-                continue;
-            }
-            let (beyond, wanted) = match shape.interior() {
-                Some(_) => (
-                    format!("outside of its container, surroundings[{index}]"),
-                    "every sphere must be wholly inside of it",
-                ),
-                None => (
-                    format!("inside of surroundings[{index}], which is solid"),
-                    "a sphere may touch it from outside",
-                ),
-            };
-            let problem = Problem::Misplaced { body, beyond, depth: -gap, wanted };
-            return Err((body, "", problem));
-        }
-    }
-    Ok(())
+    let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
+    let tolerated = |feature: &Feature<T>, center: Vec3<T>, radius: T| {
+        let coordinate = largest(center.cast().to_array()) + feature.farthest();
+        tolerance(epsilon, coordinate, radius.to_f64())
+    };
+    let Misplaced { shape, body, depth } =
+        Obstacles::new(shapes).first_overlap(bodies.len(), sphere, tolerated)?;
+    let (beyond, wanted) = match shapes[shape].interior() {
+        Some(_) => (
+            format!("outside of its container, surroundings[{shape}]"),
+            "every sphere must be wholly inside of it",
+        ),
+        None => (
+            format!("inside of surroundings[{shape}], which is solid"),
+            "a sphere may touch it from outside",
+        ),
+    };
+    Some((shape, (body, "", Problem::Misplaced { body, beyond, depth, wanted })))
 }
 
 /// No two bodies overlap. The largest go first, and each then meets only

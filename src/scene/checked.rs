@@ -14,8 +14,8 @@ use crate::vec3::Vec3;
 /// A checked scene: what an engine takes.
 ///
 /// It can only be had from a [`SceneBuilder`](super::SceneBuilder) or a
-/// [`SceneFile`](super::SceneFile); the fields
-/// are for reading. Units are the user's own as long as they agree.
+/// [`SceneFile`](super::SceneFile); the fields are for reading. Units are the
+/// user's own as long as they agree.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Scene<T: Real> {

@@ -45,7 +45,7 @@ pub(super) type GivenShape<T> = Given<Shape<T>, Shape<f64>>;
 impl<T: Real> GivenShape<T> {
     /// A shape in the scene's precision.
     pub(super) fn rounded(rounded: Shape<T>) -> Self {
-        Self { rounded, exact: rounded.cast() }
+        Self { exact: rounded.cast(), rounded }
     }
 
     /// A shape in `f64`.

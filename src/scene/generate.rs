@@ -7,14 +7,15 @@ use super::description::{Description, Entry, GivenBox, Periodicity};
 use super::error::{Problem, SceneError};
 use super::figures::Figures;
 use super::filling::Filling;
-use super::neighbours::Neighbours;
+use super::obstacles::Obstacles;
 use super::random::{Purpose, Seed};
 use super::settings::Encounters;
 use super::spheres::{Arrangement, Spheres, Spread};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::space::PeriodicBox;
-use crate::surroundings::{Feature, is_positive};
+use crate::space::neighbours::Neighbours;
+use crate::surroundings::is_positive;
 
 /// The periodic box, as given or sized by a number density.
 pub(super) fn periodic_box<T: Real>(
@@ -106,10 +107,11 @@ pub(super) fn bodies<T: Real>(
     for (index, ((entry, range), layout)) in entries() {
         generation.settle(entry, range, layout.as_ref(), seed(asked, entry, index));
     }
-    let fixed: Vec<Feature<f64>> = match asked.encounters {
+    let fixed: Vec<_> = match asked.encounters {
         Encounters::None => Vec::new(),
-        _ => asked.surroundings.iter().flat_map(|given| given.exact.features()).collect(),
+        _ => asked.surroundings.iter().map(|given| given.exact).collect(),
     };
+    let fixed = Obstacles::new(&fixed);
     for (index, ((entry, range), layout)) in entries() {
         if let (Entry::Many(spheres), Some(Layout::Random(region))) = (entry, layout) {
             generation.scatter(spheres, range, region, &fixed, seed(asked, entry, index)).map_err(
@@ -179,7 +181,7 @@ impl<T: Real> Generation<T> {
         spheres: &Spheres,
         range: &Range<usize>,
         region: &Region,
-        fixed: &[Feature<f64>],
+        fixed: &Obstacles<f64>,
         seed: Seed,
     ) -> Result<(), Problem> {
         let figures = Figures::new(&spheres.make, range.len(), seed);
@@ -243,7 +245,7 @@ fn region<T: Real>(
     // What all containers have in common; a lattice takes a box inside of it.
     let is_lattice = spheres.arrangement != Arrangement::Random;
     let interiors = asked.surroundings.iter().filter_map(|given| {
-        let shape = given.exact;
+        let shape = &given.exact;
         let [lower, upper] = if is_lattice { shape.inscribed() } else { shape.interior() }?;
         Some(Region { lower: lower.to_array(), upper: upper.to_array(), is_periodic: false })
     });

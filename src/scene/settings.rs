@@ -12,6 +12,7 @@ use crate::real::Real;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum Precision {
     /// Single precision, 24 binary digits.
     F32,
@@ -50,6 +51,7 @@ impl fmt::Display for Precision {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum EngineKind {
     /// Steps of fixed length.
     #[default]
@@ -62,6 +64,7 @@ pub enum EngineKind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum Encounters {
     /// Spheres meet each other and the surroundings.
     #[default]
@@ -89,6 +92,7 @@ pub struct SteppedSettings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum Impact {
     /// At the end of the step, where the bodies are found to overlap.
     #[default]
@@ -102,6 +106,7 @@ pub enum Impact {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
 pub enum OrientationUpdate {
     /// As a closed form of the last change of spin, when it is asked for.
     #[default]

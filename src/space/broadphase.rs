@@ -17,7 +17,7 @@ mod order;
 mod skin;
 
 pub use candidates::{Candidates, Chunk, Pair};
-use candidates::{Search, SearchedGrid, shell_ends};
+use candidates::{FEW_PARTS, Search, SearchedGrid, shell_ends};
 use grid::Grid;
 use order::CellOrder;
 use skin::best_skin;
@@ -25,8 +25,7 @@ use skin::best_skin;
 use crate::bodies::{Columns3, Figure, PerBody, Same, at};
 use crate::lane::Lane;
 use crate::real::Real;
-use crate::space::{OpenSpace, PeriodicBox};
-use crate::surroundings::Feature;
+use crate::space::{FixedParts, OpenSpace, PeriodicBox, Tree};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
@@ -47,16 +46,16 @@ const FEW: usize = 256;
 const RANKED: usize = 1 << 14;
 
 /// What a search looks at.
-#[derive(Clone, Copy, Debug)]
-pub struct Surveyed<'a, T: Real> {
+#[derive(Debug)]
+pub struct Surveyed<'a, T: Real, P: ?Sized> {
     /// Centres, length.
     pub position: &'a Columns3<T>,
     /// Radii, length.
     pub radius: &'a PerBody<T>,
     /// The periodic box, if there is one.
     pub periodic: Option<PeriodicBox<T>>,
-    /// What is fixed.
-    pub features: &'a [Feature<T>],
+    /// What is fixed: the parts that the broad phase was made for.
+    pub parts: &'a P,
     /// Whether bodies meet each other.
     pub pairs: bool,
 }
@@ -69,18 +68,21 @@ pub struct BroadPhase<T: Real> {
     grids: Vec<(Grid<T>, u32)>,
     ranks: Vec<u32>,
     order: CellOrder,
+    /// The boxes of the fixed parts.
+    tree: Tree<T>,
     /// The greatest coordinate at the last search, length.
     farthest: T,
-    /// Bodies in a diameter cubed, seen at the last search.
+    /// Bodies and fixed parts, if they are many, in a diameter cubed, seen at the
+    /// last search.
     density: Option<f64>,
     mean_diameter: f64,
     len: usize,
 }
 
 impl<T: Real> BroadPhase<T> {
-    /// A broad phase for bodies with these radii.
+    /// A broad phase for bodies with these radii among what is fixed.
     #[must_use]
-    pub fn new(radius: &PerBody<T>, len: usize) -> Self {
+    pub fn new<P: FixedParts<T> + ?Sized>(radius: &PerBody<T>, len: usize, parts: &P) -> Self {
         let reaches = match radius {
             PerBody::Same(value) => vec![*value],
             PerBody::Each(column) => classes(column),
@@ -91,6 +93,7 @@ impl<T: Real> BroadPhase<T> {
             grids: Vec::new(),
             ranks: Vec::new(),
             order: CellOrder::default(),
+            tree: Tree::new((0..parts.count()).map(|part| parts.bounds(part))),
             farthest: T::ZERO,
             density: None,
             mean_diameter: 2.0 * sum / len.max(1) as f64,
@@ -114,6 +117,13 @@ impl<T: Real> BroadPhase<T> {
         T::from_f64(diameter * best)
     }
 
+    /// Whether there are so many bounded fixed parts that a body with a wide skin
+    /// is near to many.
+    #[must_use]
+    pub fn has_many_parts(&self) -> bool {
+        self.tree.len() > FEW_PARTS
+    }
+
     /// By how much the rounding of a coordinate can move a body in a step, length.
     #[must_use]
     pub fn rounding(&self) -> T {
@@ -134,7 +144,12 @@ impl<T: Real> BroadPhase<T> {
 
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the
     /// order that is returned is the one to be put at place `k`.
-    pub fn sort(&mut self, surveyed: &Surveyed<'_, T>, skin: T, workers: &Workers) -> &[u32] {
+    pub fn sort<P: Sync + ?Sized>(
+        &mut self,
+        surveyed: &Surveyed<'_, T, P>,
+        skin: T,
+        workers: &Workers,
+    ) -> &[u32] {
         let len = surveyed.position[0].len();
         let (lower, upper) = bounds(surveyed.position);
         // A margin for the rounding of coordinates far from the origin.
@@ -180,22 +195,29 @@ impl<T: Real> BroadPhase<T> {
 
     /// Finds the candidates of a skin among bodies that stand in the order of
     /// the last [`sort`](BroadPhase::sort).
-    pub fn search<L: Lane<Scalar = T>>(
+    pub fn search<L: Lane<Scalar = T>, P: FixedParts<T> + ?Sized>(
         &mut self,
-        surveyed: &Surveyed<'_, T>,
+        surveyed: &Surveyed<'_, T, P>,
         skin: T,
         candidates: &mut Candidates,
         workers: &Workers,
     ) {
         match (surveyed.radius, surveyed.periodic) {
             (PerBody::Same(r), None) => {
-                self.search_in::<L, _, _>(surveyed, Same(*r), OpenSpace, skin, candidates, workers);
+                self.search_in::<L, _, _, _>(
+                    surveyed,
+                    Same(*r),
+                    OpenSpace,
+                    skin,
+                    candidates,
+                    workers,
+                );
             }
             (PerBody::Same(r), Some(space)) => {
-                self.search_in::<L, _, _>(surveyed, Same(*r), space, skin, candidates, workers);
+                self.search_in::<L, _, _, _>(surveyed, Same(*r), space, skin, candidates, workers);
             }
             (PerBody::Each(r), None) => {
-                self.search_in::<L, _, _>(
+                self.search_in::<L, _, _, _>(
                     surveyed,
                     r.padded(),
                     OpenSpace,
@@ -205,20 +227,29 @@ impl<T: Real> BroadPhase<T> {
                 );
             }
             (PerBody::Each(r), Some(space)) => {
-                self.search_in::<L, _, _>(surveyed, r.padded(), space, skin, candidates, workers);
+                self.search_in::<L, _, _, _>(
+                    surveyed,
+                    r.padded(),
+                    space,
+                    skin,
+                    candidates,
+                    workers,
+                );
             }
         }
-        if surveyed.pairs {
+        let at_parts = if self.has_many_parts() { candidates.at_parts_count() } else { 0 };
+        if surveyed.pairs || at_parts > 0 {
             let reach = 1.0 + skin.to_f64() / self.mean_diameter;
-            let neighbours = candidates.pair_count() as f64 / surveyed.position[0].len() as f64;
+            let neighbours = candidates.pair_count() + at_parts;
+            let neighbours = neighbours as f64 / surveyed.position[0].len() as f64;
             let volume = 2.0 / 3.0 * core::f64::consts::PI * reach.powi(3);
             self.density = Some(neighbours / volume);
         }
     }
 
-    fn search_in<L, R, S>(
+    fn search_in<L, R, S, P>(
         &self,
-        surveyed: &Surveyed<'_, T>,
+        surveyed: &Surveyed<'_, T, P>,
         radius: R,
         space: S,
         skin: T,
@@ -228,10 +259,11 @@ impl<T: Real> BroadPhase<T> {
         L: Lane<Scalar = T>,
         R: Figure<T>,
         S: crate::space::Space<T>,
+        P: FixedParts<T> + ?Sized,
     {
         let grids: Vec<_> =
             self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();
-        candidates.begin(&grids, &self.order.starts, surveyed.features.len());
+        candidates.begin(&grids, &self.order.starts);
         let search = Search {
             position: [0, 1, 2].map(|axis| surveyed.position[axis].padded()),
             radius,
@@ -245,7 +277,7 @@ impl<T: Real> BroadPhase<T> {
             if surveyed.pairs {
                 search.pairs::<L>(chunk);
             }
-            search.surroundings::<L>(surveyed.features, chunk);
+            search.at_parts::<L, P>(surveyed.parts, &self.tree, chunk);
         });
     }
 
@@ -265,6 +297,7 @@ impl<T: Real> BroadPhase<T> {
         size_of_val(self.ranks.as_slice())
             + size_of_val(self.order.starts.as_slice())
             + size_of_val(self.order.bodies.as_slice())
+            + self.tree.bytes()
     }
 }
 

@@ -8,8 +8,8 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
-use super::StudyError;
 use super::fit::quantile;
+use super::{Course, StudyError};
 use crate::engine::{EngineError, World};
 use crate::real::Real;
 
@@ -93,23 +93,23 @@ pub fn rounds(variants: &mut [Variant<'_>], rounds: usize) -> Result<Vec<Timing>
     Ok(runs.into_iter().map(Timing::of).collect())
 }
 
-/// About how many seconds a world takes to the end of a way of this length, by
-/// its first `enough` seconds; the world is then somewhere on the way.
+/// About how many seconds a world takes to the end of a course, by its first
+/// `enough` seconds; the world is then somewhere on it.
 ///
 /// # Errors
 /// If the engine stops.
 pub(super) fn outlook<T: Real>(
     world: &mut World<T>,
-    length: f64,
+    course: Course,
     enough: f64,
 ) -> Result<f64, EngineError> {
     let start = Instant::now();
     let mut stretch = 1;
     loop {
-        let is_there = world.advance(length, length, stretch, None)?;
+        let is_there = course.advance(world, course.length(), stretch, None)?;
         let taken = start.elapsed().as_secs_f64();
         if is_there || taken > enough {
-            return Ok(taken / (world.place() / length).max(1e-9));
+            return Ok(taken / course.done(world).max(1e-9));
         }
         stretch *= 2;
     }

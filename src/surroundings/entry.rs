@@ -50,7 +50,7 @@ pub(crate) struct ShapeEntry {
 }
 
 impl ShapeEntry {
-    /// Adds the value of a key, which is of the key's kind.
+    /// Adds the value of a key, of the key's meaning.
     pub(crate) fn add(&mut self, key: Key, value: Value) {
         self.values.push((key, value));
     }

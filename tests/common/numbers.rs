@@ -69,14 +69,14 @@ macro_rules! bits {
 
             fn extremes() -> Vec<Self> {
                 let pi = core::$real::consts::PI;
-                let told = Self::QUARTER_TURNS_TOLD * pi / 2.0;
+                let counted = Self::MOST_QUARTER_TURNS * pi / 2.0;
                 let positive = [
                     0.0, 1.0, 0.5, 1.5, 2.5, 3.5, 1.0 + $real::EPSILON, 1.0 - $real::EPSILON / 2.0,
                     $real::from_bits(1), $real::MIN_POSITIVE, $real::MIN_POSITIVE / 3.0,
                     $real::MIN_POSITIVE.sqrt(), $real::MAX, $real::MAX / 2.0, $real::MAX.sqrt(),
                     $real::INFINITY, $real::NAN, 1.0 / $real::EPSILON, 0.5 / $real::EPSILON,
                     0.5 / $real::EPSILON - 0.5, pi, pi / 2.0, pi / 4.0, (pi / 4.0).next_up(),
-                    told, told.next_up(), told * 100.0, 1e10, 1e20, 1e-10, 1e-20,
+                    counted, counted.next_up(), counted * 100.0, 1e10, 1e20, 1e-10, 1e-20,
                 ];
                 positive.into_iter().chain(positive.map(|value| -value)).collect()
             }

@@ -11,7 +11,7 @@ use carom::vec3::Vec3;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::reference::Reference;
+use crate::reference::{Collision, Reference};
 use crate::{builder, t3};
 
 /// Where balls are put, and among what.
@@ -199,8 +199,10 @@ fn agree<T: Compiled>(kind: Kind, seed: u64, most: u64) -> usize {
 /// Runs both for a number of events, and compares them.
 fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let lanes = LANES[seed as usize % LANES.len()];
-    let world =
-        || EventDriven::with_execution(scene.clone(), Execution { lanes, threads: 1 }).unwrap();
+    let world = || {
+        EventDriven::with_execution(scene.clone(), Execution::new().lanes(lanes).threads(1))
+            .unwrap()
+    };
     let mut first = world();
     first.advance_until(most, 50.0).unwrap();
     // Between two events: which of two roundings an end has is no matter.
@@ -217,7 +219,13 @@ fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let mut reference = Reference::new(scene);
     for (k, event) in found.iter().enumerate() {
         let expected = reference.next_event(end);
-        assert_eq!(Some(*event), expected, "{} {} event {k} of {lanes:?}", scene.name, T::NAME);
+        assert_eq!(
+            Some(Collision::from(*event)),
+            expected,
+            "{} {} event {k} of {lanes:?}",
+            scene.name,
+            T::NAME
+        );
     }
     if found.len() < cap {
         assert_eq!(reference.next_event(end), None, "{} {}: missed", scene.name, T::NAME);
@@ -257,6 +265,42 @@ fn in_a_crowd() {
     }
     crowds::<f32>();
     crowds::<f64>();
+}
+
+/// A few great bodies in dust: cells in levels by size.
+#[test]
+fn giants_in_dust() {
+    fn giants<T: Compiled>() {
+        for seed in 0..8 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let side = 30.0;
+            let dust = Spheres::random(random.random_range(250..350))
+                .radius(if seed % 3 == 0 { 0.2..=0.2 } else { 0.02..=0.6 })
+                .density(0.1)
+                .temperature(1.0)
+                .seed(seed);
+            let mut scene = builder::<T>().name(format!("giants {seed}"));
+            let centers = [[8.0, 22.0, 15.0], [22.0, 8.0, 8.0], [22.0, 22.0, 24.0]];
+            for (center, most) in centers.into_iter().zip([6.0, 4.0, 2.0]) {
+                let radius = random.random_range(0.7..1.0) * most;
+                let velocity = core::array::from_fn(|_| random.random_range(-3.0..3.0));
+                scene =
+                    scene.sphere(Sphere::new(center).radius(radius).mass(5.0).velocity(velocity));
+            }
+            scene = match seed % 4 {
+                0 => scene,
+                1 => scene.surroundings(Cuboid::container(t3([0.0; 3]), t3([side; 3]))),
+                _ => scene.periodic(PeriodicBox::new(t3([0.0; 3]), t3([side; 3]))),
+            };
+            if seed % 2 == 1 {
+                scene = scene.surface(Surface::Rough).gravity(t3([0.5, 0.0, -2.0]));
+            }
+            let dust = if seed % 4 == 0 { dust.within([0.0; 3], [side; 3]) } else { dust };
+            same_events(&scene.spheres(dust).build().unwrap(), seed, 100);
+        }
+    }
+    giants::<f32>();
+    giants::<f64>();
 }
 
 /// Random scenes of each kind and precision.

@@ -24,10 +24,10 @@ use carom::scene::{Scene, SceneBuilder};
 use carom::surroundings::Plane;
 
 /// The scalar path.
-pub const SCALAR: Execution = Execution { lanes: Lanes::Scalar, threads: 1 };
+pub const SCALAR: Execution = Execution::new().lanes(Lanes::Scalar).threads(1);
 
 /// The fastest lanes.
-pub const FAST: Execution = Execution { lanes: Lanes::Auto, threads: 1 };
+pub const FAST: Execution = Execution::new().threads(1);
 
 /// A scene in the making that needs no step.
 pub fn builder<T: Real>() -> SceneBuilder<T> {

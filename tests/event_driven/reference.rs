@@ -52,6 +52,36 @@ pub struct Reference<'a, T: Real> {
     is_too_fast: bool,
 }
 
+/// What the reference says of a collision: all that an [`Event`] does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Collision<T> {
+    time: f64,
+    a: u32,
+    partner: Partner<T>,
+    point: Vec3<T>,
+    normal: Vec3<T>,
+    normal_impulse: T,
+    tangential_impulse: Vec3<T>,
+    velocity: Vec3<T>,
+    spin: Vec3<T>,
+}
+
+impl<T: Real> From<Event<T>> for Collision<T> {
+    fn from(event: Event<T>) -> Self {
+        Self {
+            time: event.time,
+            a: event.a,
+            partner: event.partner,
+            point: event.point,
+            normal: event.normal,
+            normal_impulse: event.normal_impulse,
+            tangential_impulse: event.tangential_impulse,
+            velocity: event.velocity,
+            spin: event.spin,
+        }
+    }
+}
+
 impl<'a, T: Real> Reference<'a, T> {
     pub fn new(scene: &'a Scene<T>) -> Self {
         let bodies = &scene.bodies;
@@ -85,7 +115,7 @@ impl<'a, T: Real> Reference<'a, T> {
     }
 
     /// The next collision, if it comes up to a time.
-    pub fn next_event(&mut self, until: f64) -> Option<Event<T>> {
+    pub fn next_event(&mut self, until: f64) -> Option<Collision<T>> {
         if self.is_too_fast {
             self.begin_period(self.now);
         }
@@ -220,12 +250,12 @@ impl<'a, T: Real> Reference<'a, T> {
     fn collide(&self, offset: Vec3<T>, a: &mut Party<T>, b: &mut Party<T>) -> Impulse<T> {
         match self.scene.surface {
             Surface::Smooth => collide_spread(Smooth, offset, a, b),
-            Surface::Rough => collide_spread(Rough, offset, a, b),
+            _ => collide_spread(Rough, offset, a, b),
         }
     }
 
     /// What happens at a contact now.
-    fn happen(&mut self, (a, is_pair, b): (usize, bool, usize)) -> Event<T> {
+    fn happen(&mut self, (a, is_pair, b): (usize, bool, usize)) -> Collision<T> {
         let (offset, arm, impulse, partner);
         if is_pair {
             let reach = self.balls[a].radius + self.balls[b].radius;
@@ -260,7 +290,7 @@ impl<'a, T: Real> Reference<'a, T> {
             self.depart(a, &party);
         }
         let ball = &self.balls[a];
-        Event {
+        Collision {
             time: self.origin.value() + self.now.to_f64(),
             a: a as u32,
             partner,

@@ -13,7 +13,7 @@ const OTHERS: [Lanes; 4] = [Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Six
 
 /// All events up to a time and the state there; whether time has stood still.
 fn story<T: Compiled>(scene: Scene<T>, lanes: Lanes, end: f64) -> (Vec<Event<T>>, StateHash, bool) {
-    let execution = Execution { lanes, threads: 1 };
+    let execution = Execution::new().lanes(lanes).threads(1);
     let mut world = EventDriven::with_execution(scene, execution).unwrap();
     let mut events = Vec::new();
     let result = world.for_each_event(end, |event| events.push(*event));

@@ -60,6 +60,7 @@ fn named<T: Real>(event: &Event<T>) -> (&'static str, u32, u32, u32) {
             let axis = (0..3).find(|&axis| normal[axis].abs() == 1.0).unwrap();
             ("wall", event.a, axis as u32, u32::from(normal[axis] < 0.0))
         }
+        other => panic!("{other:?}"),
     }
 }
 

@@ -53,6 +53,7 @@ fn units_change_no_bit() {
                     let with = |partner| match partner {
                         Partner::Body { index, .. } => (true, index),
                         Partner::Surroundings(part) => (false, part),
+                        other => panic!("{other:?}"),
                     };
                     assert_eq!(
                         (found.a, with(found.partner)),

@@ -1,9 +1,9 @@
 //! The files that a run writes.
 
 use std::fs;
+use std::str::FromStr;
 
-use carom::bodies::{Bodies, PerBody};
-use carom::column::Column;
+use carom::bodies::Bodies;
 use carom::observe::state_hash;
 use carom::real::Real;
 
@@ -66,23 +66,14 @@ fn a_state_reads_back_to_the_same_bits() {
         assert_eq!(header.join(","), STATE);
         assert_eq!(rows.len(), 20);
         assert!(rows.iter().enumerate().all(|(index, row)| row[0] == index.to_string()));
-        let column = |field: usize| {
-            let values = rows.iter().map(|row| match row[field].parse::<T>() {
-                Ok(value) => value,
-                Err(_) => panic!("{}", row[field]),
-            });
-            Column::from_values(values, T::ZERO)
-        };
-        let columns = |first: usize| std::array::from_fn(|axis| column(first + axis));
-        let state = Bodies {
-            position: columns(1),
-            velocity: columns(4),
-            spin: columns(7),
-            orientation: Some(Box::new(std::array::from_fn(|k| column(10 + k)))),
-            radius: PerBody::Each(column(19)),
-            mass: PerBody::Each(column(20)),
-            inertia: PerBody::Same(T::ONE),
-        };
+        let state = Bodies::<T>::from_positions(&fields(&rows, 1))
+            .velocities(&fields(&rows, 4))
+            .spins(&fields(&rows, 7))
+            .orientations(&fields(&rows, 10))
+            .radii(fields::<T, 1>(&rows, 19).as_flattened())
+            .masses(fields::<T, 1>(&rows, 20).as_flattened())
+            .build()
+            .unwrap();
         assert_eq!(summary["state_hash"], state_hash(&state).to_string());
         assert_eq!(state.radius.of(0), T::ratio(1, 2));
         assert_eq!(state.mass.of(0), T::whole(3));
@@ -129,4 +120,13 @@ fn interrupted(engine: &str) {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(folder.names(), ["scene.toml", "state.csv"]);
     assert_eq!(folder.read("state.csv"), "old");
+}
+
+/// `N` numbers of each row, from a field on.
+fn fields<T: Real + FromStr, const N: usize>(rows: &[Vec<String>], first: usize) -> Vec<[T; N]> {
+    let number = |text: &String| match text.parse() {
+        Ok(value) => value,
+        Err(_) => panic!("{text}"),
+    };
+    rows.iter().map(|row| std::array::from_fn(|k| number(&row[first + k]))).collect()
 }

@@ -207,7 +207,29 @@ fn boxes_that_cannot_be() {
 fn shapes_that_cannot_be() {
     let shape = |keys: &str| message(&format!("[[surroundings]]\n{keys}\n{BALL}"));
     assert_starts(&shape("inside = true"), "s.toml:2: surroundings[0].shape is missing; it is ");
-    assert_starts(&shape("shape = \"cone\""), "s.toml:3: surroundings[0].shape is `cone`; ");
+    assert_eq!(
+        shape("shape = \"cone\""),
+        "s.toml:3: surroundings[0].shape is `cone`; it must be one of `plane`, `box`, `sphere`"
+    );
+    assert_eq!(
+        shape("shape = 3"),
+        "s.toml:3: surroundings[0].shape is integer `3`; it must be one of `plane`, `box`, `sphere`"
+    );
+    assert_eq!(
+        shape("shape = \"plane\"\naxis = [0, 0, 1]"),
+        "s.toml:4: surroundings[0].axis is not a key that means something here; known are \
+         `shape`, `point`, `normal`, `lower`, `upper`, `center`, `radius`, `inside`"
+    );
+    assert_eq!(
+        shape("shape = \"sphere\"\ncenter = 3"),
+        "s.toml:4: surroundings[0].center is integer `3`; \
+         it must be three numbers, as in [0.0, 0.0, 1.0]"
+    );
+    assert_starts(&shape("inside = 1"), "s.toml:3: surroundings[0].inside is integer `1`; ");
+    assert_eq!(
+        message(&format!("surroundings = [3]\n{BALL}")),
+        "s.toml:2: surroundings[0] is integer `3`; it must be a table with a shape"
+    );
     assert_starts(
         &shape("shape = \"plane\"\npoint = [0, 0, -1]"),
         "s.toml:2: surroundings[0].normal is missing; three numbers ",

@@ -200,6 +200,7 @@ fn events_tell_the_whole_story() {
                             last[index as usize] = (velocity, spin);
                             (event.a as usize, i64::from(index))
                         }
+                        other => panic!("{other:?}"),
                     };
                     counted[usize::from(b < 0)] += 1;
                     last[a] = (event.velocity, event.spin);

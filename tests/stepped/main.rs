@@ -13,10 +13,10 @@ use carom::engine::{Compiled, Execution, Lanes, Stepped};
 use carom::scene::Scene;
 
 /// The scalar path on one thread.
-pub const SCALAR: Execution = Execution { lanes: Lanes::Scalar, threads: 1 };
+pub const SCALAR: Execution = Execution::new().lanes(Lanes::Scalar).threads(1);
 
 /// The fastest lanes on one thread.
-pub const FAST: Execution = Execution { lanes: Lanes::Auto, threads: 1 };
+pub const FAST: Execution = Execution::new().threads(1);
 
 /// A scene at its start.
 pub fn world<T: Compiled>(scene: Scene<T>, execution: Execution) -> Stepped<T> {

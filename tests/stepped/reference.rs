@@ -44,7 +44,7 @@ impl<T: Compiled> Reference<T> {
         flight::<T, SemiImplicitEuler, S>([x, y, z], [u, v, w], scene.gravity, dt, space);
         let collide = |offset, a: &mut Party<T>, b: &mut Party<T>| match scene.surface {
             Surface::Smooth => collide(Smooth, offset, a, b),
-            Surface::Rough => collide(Rough, offset, a, b),
+            _ => collide(Rough, offset, a, b),
         };
         for a in 0..self.bodies.len() {
             let center = self.bodies.position_of(a);
@@ -137,6 +137,20 @@ fn scenes_agree<T: Compiled>() {
             .surroundings(FixedSphere::solid([t(1.21), t(3.0), t(3.0)], t(1.0)))
             .spheres(Spheres::random(200).radius(0.2).temperature(4.0).seed(9));
         agree(lattice.build().unwrap(), 600);
+
+        // More solids than are tested one by one, of sizes 1 to 20, with bodies
+        // that leave the box in front of some.
+        let mut posts = builder()
+            .name("periodic, many solids")
+            .periodic(PeriodicBox::new(corner(0.0), corner(6.0)))
+            .surroundings(Cuboid::solid([t(0.3), t(1.0), t(2.0)], [t(5.7), t(1.2), t(2.2)]));
+        for k in 0..64 {
+            let center = [k % 4, k / 4 % 4, k / 16].map(|c| t(0.9 + 1.4 * f64::from(c)));
+            let radius = if k % 3 == 0 { t(0.65) } else { t(0.05) };
+            posts = posts.surroundings(FixedSphere::solid(center, radius));
+        }
+        let small = Spheres::random(150).radius(0.05..=0.2).temperature(4.0).seed(10);
+        agree(posts.spheres(small).build().unwrap(), 300);
 
         let dense = Spheres::fcc(108).radius(0.5).number_density(1.1).temperature(1.0).seed(5);
         agree(builder().name("dense").periodic_cube().spheres(dense).build().unwrap(), 200);

@@ -12,11 +12,11 @@ use crate::world;
 const WORK: usize = 600_000;
 
 const PATHS: [Execution; 5] = [
-    Execution { lanes: Lanes::Scalar, threads: 1 },
-    Execution { lanes: Lanes::Four, threads: 2 },
-    Execution { lanes: Lanes::Eight, threads: 1 },
-    Execution { lanes: Lanes::Sixteen, threads: 2 },
-    Execution { lanes: Lanes::Auto, threads: 2 },
+    Execution::new().lanes(Lanes::Scalar).threads(1),
+    Execution::new().lanes(Lanes::Four).threads(2),
+    Execution::new().lanes(Lanes::Eight).threads(1),
+    Execution::new().lanes(Lanes::Sixteen).threads(2),
+    Execution::new().lanes(Lanes::Auto).threads(2),
 ];
 
 fn bodies_of<T: Compiled>(scene: &SceneFile, impact: Impact, execution: Execution) -> Bodies<T> {

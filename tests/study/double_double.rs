@@ -183,7 +183,7 @@ fn built_in_scenes_agree_with_f64() {
                 EngineKind::EventDriven if large.contains(&builtin.name) => 0.02,
                 // Convex obstacles part paths quickly.
                 EngineKind::EventDriven if builtin.name == "lorentz-gas" => 0.3,
-                EngineKind::EventDriven => 2.5,
+                _ => 2.5,
             };
             let truth = state::<DoubleDouble>(&file, duration);
             let scene = file.build::<DoubleDouble>().unwrap();
@@ -204,7 +204,6 @@ fn built_in_scenes_agree_with_f64() {
 
 fn state<T: Compiled>(file: &SceneFile, duration: f64) -> World<T> {
     let mut world = World::<T>::new(file.build().unwrap(), Execution::default()).unwrap();
-    let length = world.length(duration);
-    while !world.advance(length, length, 1 << 20, None).unwrap() {}
+    world.advance(duration).unwrap();
     world
 }

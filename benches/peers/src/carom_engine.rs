@@ -3,9 +3,8 @@
 use std::cell::OnceCell;
 use std::error::Error;
 
-use carom::bodies::{Bodies, Columns3, PerBody};
-use carom::column::Column;
-use carom::engine::{Execution, Lanes, Stepped};
+use carom::bodies::{Bodies, BodiesError, PerBody};
+use carom::engine::{Execution, Stepped};
 use carom::scene::{Impact, OrientationUpdate};
 use carom::motion::Integrator;
 use carom::real::Real;
@@ -64,7 +63,7 @@ fn boxed<T: Real>(
     threads: usize,
     settings: Settings,
 ) -> Result<Box<dyn World>, Box<dyn Error>> {
-    let execution = Execution { lanes: Lanes::Auto, threads };
+    let execution = Execution::new().threads(threads);
     let engine = Stepped::<T>::with_execution(translated(scene, settings)?, execution)?;
     Ok(Box::new(CaromWorld { engine, bodies: OnceCell::new() }))
 }
@@ -73,13 +72,13 @@ fn boxed<T: Real>(
 fn translated<T: Real>(
     scene: &Scene,
     settings: Settings,
-) -> Result<scene::Scene<T>, scene::SceneError> {
+) -> Result<scene::Scene<T>, Box<dyn Error>> {
     let real = T::from_f64;
     let mut builder = scene::Scene::builder()
         .gravity([T::ZERO, T::ZERO, real(scene.gravity)])
         .encounters(if scene.collisions { Encounters::All } else { Encounters::None })
         .dt(scene.dt)
-        .bodies(bodies(&scene.spheres));
+        .bodies(bodies(&scene.spheres)?);
     builder = match scene.surroundings {
         Surroundings::None => builder,
         Surroundings::Floor => builder
@@ -94,24 +93,20 @@ fn translated<T: Real>(
             .integrator(Integrator::VelocityVerlet)
             .orientation(OrientationUpdate::EachStep);
     }
-    builder.build()
+    Ok(builder.build()?)
 }
 
-fn bodies<T: Real>(spheres: &[Sphere]) -> Bodies<T> {
-    let columns = |vector: fn(&Sphere) -> [f64; 3]| -> Columns3<T> {
-        [0, 1, 2].map(|axis| {
-            Column::from_values(spheres.iter().map(|s| T::from_f64(vector(s)[axis])), T::ZERO)
-        })
+fn bodies<T: Real>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
+    let all = |vector: fn(&Sphere) -> [f64; 3]| -> Vec<[T; 3]> {
+        spheres.iter().map(|sphere| vector(sphere).map(T::from_f64)).collect()
     };
-    Bodies {
-        position: columns(|sphere| sphere.position),
-        velocity: columns(|sphere| sphere.velocity),
-        spin: columns(|sphere| sphere.spin),
-        orientation: None,
-        radius: PerBody::Same(T::from_f64(RADIUS)),
-        mass: PerBody::Same(T::ONE),
-        inertia: PerBody::Same(T::from_f64(INERTIA)),
-    }
+    let mut bodies = Bodies::from_positions(&all(|sphere| sphere.position))
+        .velocities(&all(|sphere| sphere.velocity))
+        .spins(&all(|sphere| sphere.spin))
+        .radius(T::from_f64(RADIUS))
+        .build()?;
+    bodies.inertia = PerBody::Same(T::from_f64(INERTIA));
+    Ok(bodies)
 }
 
 struct CaromWorld<T: Real> {

@@ -94,6 +94,7 @@ impl Summary {
         let impact = match impact {
             Impact::EndOfStep => "impacts at the end of a step",
             Impact::SubStep => "impacts at their time within a step",
+            _ => "impacts of another kind",
         };
         format!("stepped, {integrator}, {impact}")
     }

@@ -7,6 +7,24 @@ use crate::vec3::Vec3;
 
 /// Perfectly rough, `e = β = 1`: an impulse reverses the relative velocity of
 /// the surfaces, the tangential part too.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::{Party, Rough, collide};
+///
+/// // A shell of radius 1 and mass 1 comes down on the floor aslant.
+/// let mut shell = Party {
+///     velocity: Vec3::new(5.0, 0.0, -1.0),
+///     spin: Vec3::ZERO,
+///     inverse_mass: 1.0,
+///     inverse_inertia: 1.5,
+///     share: 1.0,
+/// };
+/// let from_floor = Vec3::new(0.0, 0.0, 1.0);
+/// collide(Rough, from_floor, &mut shell, &mut Party::immovable());
+/// assert_eq!(shell.velocity.to_array(), [1.0, 0.0, 1.0]);
+/// assert_eq!(shell.spin.y, 6.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rough;
 

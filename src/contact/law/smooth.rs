@@ -7,6 +7,22 @@ use crate::vec3::Vec3;
 
 /// Frictionless, `e = 1, β = −1`: an impulse is along the normal, and spins
 /// never change.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::{Party, Smooth, collide};
+///
+/// let at = |speed: f64| Party {
+///     velocity: Vec3::new(speed, 0.0, 0.0),
+///     spin: Vec3::ZERO,
+///     inverse_mass: 1.0,
+///     inverse_inertia: 10.0,
+///     share: 0.5,
+/// };
+/// let (mut a, mut b) = (at(1.0), at(-3.0));
+/// collide(Smooth, Vec3::new(-1.0, 0.0, 0.0), &mut a, &mut b);
+/// assert_eq!((a.velocity.x, b.velocity.x), (-3.0, 1.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Smooth;
 

@@ -84,11 +84,7 @@ impl<T: Real> Cells<T> {
     /// `wanted` if that is more.
     fn new(region: Region<T>, reach: T, wanted: T, most: u64) -> Self {
         let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
-        let farthest = lower.iter().chain(&upper).fold(T::ZERO, |most, c| most.greater(c.abs()));
-        // Far from the origin places are rounded by more than a margin for
-        // bodies that stop at a face.
-        let rounding = farthest * T::EPSILON * T::whole(64);
-        let least = reach * T::ratio(MARGIN + 4, MARGIN) + rounding * T::whole(4);
+        let least = least_side(region, reach);
         let extent: [T; 3] = core::array::from_fn(|k| upper[k] - lower[k]);
         let mut wanted = wanted.greater(least);
         let counts = loop {
@@ -99,6 +95,15 @@ impl<T: Real> Cells<T> {
             }
             wanted = wanted * T::ratio(5, 4);
         };
+        Self::of_counts(region, counts, most)
+    }
+
+    /// A grid of empty cells, so many along each axis. It grows to at most twice
+    /// `most` blocks.
+    fn of_counts(region: Region<T>, counts: [i32; 3], most: u64) -> Self {
+        let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
+        let extent: [T; 3] = core::array::from_fn(|k| upper[k] - lower[k]);
+        let rounding = rounding(region);
         let mut axes = core::array::from_fn(|k| Axis {
             lower: lower[k],
             side: extent[k] / T::whole(counts[k]),
@@ -117,6 +122,27 @@ impl<T: Real> Cells<T> {
             spilled: BTreeMap::new(),
             fullest: 0,
         }
+    }
+
+    /// An empty grid of the same space with so many cells along each axis.
+    pub fn divided(&self, region: Region<T>, counts: [i32; 3]) -> Self {
+        Self::of_counts(region, counts, self.most_blocks as u64 / 2)
+    }
+
+    /// Cells along each axis.
+    pub fn counts(&self) -> [i32; 3] {
+        self.axes.each_ref().map(|axis| axis.count)
+    }
+
+    /// How space is bounded.
+    pub fn ends(&self) -> Ends {
+        self.axes[0].ends
+    }
+
+    /// The sides of a cell and how far beyond them a body counts as inside, length.
+    pub fn sides(&self) -> [[f64; 2]; 3] {
+        let margin = self.margin.to_array();
+        core::array::from_fn(|k| [self.axes[k].side.to_f64(), margin[k].to_f64()])
     }
 
     /// Whether the box is so narrow along an axis that two images of a pair can
@@ -308,6 +334,15 @@ impl<T: Real> Cells<T> {
         len
     }
 
+    /// The bodies in a cell, into `found` behind the first `len`; returns how many
+    /// there are then. There are none beyond closed ends.
+    pub fn read_cell(&self, cell: [i32; 3], found: &mut [u32], len: usize) -> usize {
+        if (0..3).any(|k| self.axes[k].held(cell[k]) != cell[k]) {
+            return len;
+        }
+        self.read(self.number_of(cell), found, len)
+    }
+
     #[inline(always)]
     fn read(&self, number: u32, found: &mut [u32], len: usize) -> usize {
         if self.blocks > 1 {
@@ -338,8 +373,12 @@ impl<T: Real> Cells<T> {
 
     /// How many places a buffer for [`around`](Cells::around) must have.
     pub fn most(&self) -> usize {
-        let most = (self.blocks * STRIDE).max(self.fullest);
-        (27 * most).next_multiple_of(16) + 2 * STRIDE
+        (27 * self.most_in_cell()).next_multiple_of(16) + 2 * STRIDE
+    }
+
+    /// How many places are written at most to read a cell.
+    pub fn most_in_cell(&self) -> usize {
+        (self.blocks * STRIDE).max(self.fullest)
     }
 
     /// How many bodies the blocks of a cell have room for.
@@ -431,6 +470,19 @@ impl<T: Real> Cells<T> {
     pub fn bytes(&self) -> usize {
         self.places.capacity() * size_of::<[u32; STRIDE]>()
     }
+}
+
+/// The least side of a cell for bodies that touch at distances of up to `reach`.
+fn least_side<T: Real>(region: Region<T>, reach: T) -> T {
+    reach * T::ratio(MARGIN + 4, MARGIN) + rounding(region) * T::whole(4)
+}
+
+/// By how much positions far from the origin are rounded, for bodies that stop at a
+/// face.
+fn rounding<T: Real>(region: Region<T>) -> T {
+    let corners = [region.lower, region.upper].map(Vec3::to_array);
+    let farthest = corners.iter().flatten().fold(T::ZERO, |most, c| most.greater(c.abs()));
+    farthest * T::EPSILON * T::whole(64)
 }
 
 /// Where the body of a number is among a cell's places.

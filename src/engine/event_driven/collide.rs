@@ -10,7 +10,7 @@ use super::search::search;
 use super::setting::Setting;
 use super::turns::enter;
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Party, Rough, Smooth, collide_spread};
+use crate::contact::{Impulse, Laws, Party, collide_spread, one_material, with_law};
 use crate::engine::account::Account;
 use crate::engine::{Event, Listener, Partner};
 use crate::real::Real;
@@ -109,7 +109,7 @@ fn party<T: Real>(setting: &Setting<T>, region: &Region<T>, slot: usize, share: 
     let index = region.index[slot] as usize;
     Party {
         velocity: region.records[slot].flight().velocity,
-        spin: if setting.plan.is_rough { region.spins[slot] } else { Vec3::ZERO },
+        spin: if setting.plan.changes_spins { region.spins[slot] } else { Vec3::ZERO },
         inverse_mass: setting.inverse_mass.of(index),
         inverse_inertia: setting.inverse_inertia.of(index),
         share,
@@ -123,11 +123,9 @@ fn collide<T: Real>(
     a: &mut Party<T>,
     b: &mut Party<T>,
 ) -> Impulse<T> {
-    if setting.plan.is_rough {
-        collide_spread(Rough, offset, a, b)
-    } else {
-        collide_spread(Smooth, offset, a, b)
-    }
+    with_law!(setting.plan.surface, law => {
+        collide_spread(Laws::<T>::between::<T>(&law, one_material), offset, a, b)
+    })
 }
 
 /// Starts the next flight of the body in a slot.
@@ -144,7 +142,7 @@ fn depart<T: Real>(
     let flight = Flight { velocity: party.velocity, ..flight };
     region.records[slot] = Record::new(flight);
     region.coarse.put(slot, &flight);
-    if setting.plan.is_rough {
+    if setting.plan.changes_spins {
         region.spins[slot] = party.spin;
     }
     let changes = region.marks[slot].changes.wrapping_add(1);

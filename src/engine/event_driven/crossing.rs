@@ -3,6 +3,7 @@
 use super::agenda::Exit;
 use super::features::search_features_of_cell;
 use super::region::Region;
+use super::search::{search_greater, search_shell};
 use super::setting::Setting;
 use crate::engine::account::Effort;
 use crate::lane::Lane;
@@ -58,7 +59,7 @@ pub(super) fn plan_crossing<T: Real>(
     let agenda = &mut region.agendas[slot as usize];
     let mut first = (T::from_f64(1e30), Exit { axis: 0, up: false });
     for axis in 0..3 {
-        let bounds = region.cells.bounds(agenda.cell, axis);
+        let bounds = region.cells.finest().bounds(agenda.cell, axis);
         let (time, up) = leaves(bounds, position[axis], velocity[axis], gravity[axis]);
         if time < first.0 {
             first = (time, Exit { axis: axis as u8, up });
@@ -84,17 +85,31 @@ pub(super) fn cross<T: Real>(
     let from = agenda.cell;
     agenda.cell[axis] += if up { 1 } else { -1 };
     let cell = agenda.cell;
-    if setting.plan.has_pairs {
-        region.cells.remove(from, slot);
-        region.cells.insert(cell, slot);
+    let level = region.level_of(slot as usize);
+    let is_new = |region: &Region<T>, level: usize| {
+        region.cells.cell_at(level, from) != region.cells.cell_at(level, cell)
+    };
+    if setting.plan.has_pairs && is_new(region, level) {
+        region.cells.remove(level, from, slot);
+        region.cells.insert(level, cell, slot);
         region.make_room();
     }
     plan_crossing(setting, region, slot, now, period);
     if setting.plan.features > 0 {
         search_features_of_cell(setting, region, slot);
     }
-    if setting.plan.has_pairs {
-        let len = region.cells.ahead(cell, axis, up, &mut region.found);
+    if !setting.plan.has_pairs {
+        return;
+    }
+    if is_new(region, level) {
+        let own = region.cells.cell_at(level, cell);
+        let len = region.cells.at(level).ahead(own, axis, up, &mut region.found);
         (setting.search_bodies)(setting, region, effort, slot, len, now);
+        search_greater(setting, region, effort, slot, level, now);
+    }
+    for finer in level + 1..region.cells.len() {
+        if is_new(region, finer) {
+            search_shell(setting, region, effort, slot, [level, finer], now);
+        }
     }
 }

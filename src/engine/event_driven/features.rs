@@ -26,7 +26,7 @@ pub(super) fn search_features_of_cell<T: Real>(
     region: &mut Region<T>,
     slot: u32,
 ) {
-    let cell = region.cells.number_of(region.agendas[slot as usize].cell);
+    let cell = region.cells.finest().number_of(region.agendas[slot as usize].cell);
     for &image in setting.near.of(cell) {
         expect_feature(setting, region, slot, image);
     }
@@ -45,7 +45,7 @@ fn expect_feature<T: Real>(
     if let Some(space) = setting.periodic {
         // In one step: an image has the same bits from every cell.
         let image = space.turns(setting.images[image as usize]);
-        let turns = region.cells.turns(region.agendas[at].cell);
+        let turns = region.cells.finest().turns(region.agendas[at].cell);
         center -= space.shift(turns + image);
     }
     let feature = &setting.features[feature as usize];

@@ -41,7 +41,7 @@ impl<T: Real> Record<T> {
 }
 
 /// The most lanes that are gathered at once.
-const WIDEST: usize = 16;
+pub(super) const WIDEST: usize = 16;
 
 impl<L: Lane> Flight<L> {
     /// The flight of one body in every lane.

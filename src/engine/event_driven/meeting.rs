@@ -1,7 +1,7 @@
 //! Meeting: when two bodies in flight come into contact.
 
 use super::flight::Flight;
-use crate::contact::{ContactTime, Encounter};
+use crate::contact::{ContactEquation, ContactTime};
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
@@ -15,7 +15,7 @@ pub(super) struct Meeting<L> {
     from: L,
     reach: L,
     /// From then on.
-    encounter: Encounter<L>,
+    equation: ContactEquation<L>,
 }
 
 /// Whether two bodies in flight meet, and when.
@@ -44,7 +44,7 @@ pub(super) fn meeting<L: Lane, F: FlightStep, S: Space<L::Scalar>, const STARTS:
     let offset = offset - space.shift(space.turns(nearby) + further);
 
     let reach = a.radius + b.radius;
-    Meeting { from, reach, encounter: Encounter::new(offset, relative, reach) }
+    Meeting { from, reach, equation: ContactEquation::new(offset, relative, reach) }
 }
 
 impl<L: Lane> Meeting<L> {
@@ -52,14 +52,14 @@ impl<L: Lane> Meeting<L> {
     /// of a precision whose errors are below the slack.
     #[inline(always)]
     pub fn may_meet(&self, slack: L) -> L::Mask {
-        self.encounter.may_meet(slack)
+        self.equation.may_meet(slack)
     }
 
     /// Whether the two are in contact at the start of the later flight, or all
     /// but in contact.
     #[inline(always)]
     pub fn is_touching(&self) -> L::Mask {
-        self.encounter.is_touching(self.reach)
+        self.equation.is_touching(self.reach)
     }
 }
 
@@ -82,7 +82,7 @@ impl<T: Real> Meetings<T> {
     /// Puts a pack of meetings down as those from number `first` on.
     #[inline(always)]
     pub fn put<L: Lane<Scalar = T>>(&mut self, first: usize, meeting: &Meeting<L>) {
-        let ContactTime { meets, time } = meeting.encounter.contact_time();
+        let ContactTime { meets, time } = meeting.equation.contact_time();
         (meeting.from + time).store(&mut self.times[first..]);
         self.met |= u64::from(meets.bits()) << first;
     }

@@ -81,7 +81,7 @@ pub(super) fn end_flight<T: Real>(
         flight.position = space.wrap(position);
         let turns = space.turns(position - flight.position);
         let cell = &mut region.agendas[slot].cell;
-        *cell = region.cells.turned_back(*cell, turns);
+        *cell = region.cells.finest().turned_back(*cell, turns);
     }
     region.records[slot] = Record::new(flight);
     if let Some((orientation, turned_at)) = region.turned.get_mut(slot) {
@@ -126,7 +126,7 @@ fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -
     let fallen = setting.gravity.length().to_f64() * clock.period.to_f64();
     Scales {
         extent,
-        neighbourhood: region.cells.neighbourhood(),
+        neighbourhood: region.cells.coarsest().neighbourhood(),
         reach: 2.0 * least,
         speed: clock.too_fast.to_f64().sqrt() + fallen,
         period: clock.period.to_f64(),
@@ -139,8 +139,8 @@ fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
     cells.clear();
     let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(region.records.len());
     for (slot, record) in region.records.iter().enumerate() {
-        let cell = cells.cell_of(record.flight().position);
-        order.push((cells.number_of(cell), region.index[slot], slot as u32));
+        let cell = cells.finest().cell_of(record.flight().position);
+        order.push((cells.finest().number_of(cell), region.index[slot], slot as u32));
     }
     order.sort_unstable();
     region.records = reordered(&region.records, &order);
@@ -150,11 +150,12 @@ fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
         region.turned = reordered(&region.turned, &order);
     }
     region.marks = reordered(&region.marks, &order);
-    let agenda = |record: &Record<T>| Agenda::new(cells.cell_of(record.flight().position));
+    let agenda = |record: &Record<T>| Agenda::new(cells.finest().cell_of(record.flight().position));
     region.agendas = region.records.iter().map(agenda).collect();
     if setting.plan.has_pairs {
         for (slot, agenda) in region.agendas.iter().enumerate() {
-            region.cells.insert(agenda.cell, slot as u32);
+            let level = region.level_of(slot);
+            region.cells.insert(level, agenda.cell, slot as u32);
         }
         region.make_room();
     }

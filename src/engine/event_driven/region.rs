@@ -2,9 +2,9 @@
 
 use super::agenda::{Agenda, Mark, PartnerCode};
 use super::calendar::Calendar;
-use super::cells::Cells;
 use super::coarse::Coarse;
 use super::flight::{Flight, Record};
+use super::levels::Levels;
 use super::meeting::Meetings;
 use super::setting::Setting;
 use crate::engine::plan::Turning;
@@ -30,7 +30,7 @@ pub(super) struct Region<T: Real> {
     /// The scene's index of the body in each slot.
     pub index: Vec<u32>,
 
-    pub cells: Cells<T>,
+    pub cells: Levels<T>,
     pub calendar: Calendar<T>,
     pub coarse: Coarse<T::Coarse>,
     /// A body has become so fast that the period is too long for it.
@@ -44,7 +44,7 @@ pub(super) struct Region<T: Real> {
 
 impl<T: Real> Region<T> {
     /// The bodies of a scene at its start, in the scene's order.
-    pub fn new(setting: &Setting<T>, cells: Cells<T>) -> Self {
+    pub fn new(setting: &Setting<T>, cells: Levels<T>) -> Self {
         let bodies = &setting.bodies;
         let len = bodies.len();
         let record = |index: usize| {
@@ -90,6 +90,15 @@ impl<T: Real> Region<T> {
             Some(&spin) => spin,
             None => setting.bodies.spin_of(self.index[slot] as usize),
         }
+    }
+
+    /// The level of cells that the body in a slot belongs to.
+    #[inline(always)]
+    pub fn level_of(&self, slot: usize) -> usize {
+        if self.cells.len() == 1 {
+            return 0;
+        }
+        self.cells.level_of(self.records[slot].flight().radius)
     }
 
     /// Keeps the buffer as large as the cells may ask.

@@ -3,7 +3,7 @@
 use super::agenda::{Expected, PartnerCode};
 use super::cells::Cells;
 use super::features::search_features;
-use super::flight::Flight;
+use super::flight::{Flight, WIDEST};
 use super::meeting::{TOGETHER, meeting};
 use super::region::Region;
 use super::setting::Setting;
@@ -35,7 +35,61 @@ pub(super) fn search<T: Real>(
         search_features(setting, region, slot);
     }
     if setting.plan.has_pairs {
-        let len = region.cells.around(cell, &mut region.found);
+        let level = region.level_of(slot as usize);
+        let own = region.cells.cell_at(level, cell);
+        let len = region.cells.at(level).around(own, &mut region.found);
+        (setting.search_bodies)(setting, region, effort, slot, len, now);
+        search_greater(setting, region, effort, slot, level, now);
+        for finer in level + 1..region.cells.len() {
+            search_shell(setting, region, effort, slot, [level, finer], now);
+        }
+    }
+}
+
+/// Looks for contacts of the body in a slot, of a level, with bodies of coarser
+/// levels.
+pub(super) fn search_greater<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    effort: &mut Effort,
+    slot: u32,
+    level: usize,
+    now: T,
+) {
+    for coarser in 0..level {
+        let cell = region.cells.cell_at(coarser, region.agendas[slot as usize].cell);
+        let len = region.cells.at(coarser).around(cell, &mut region.found);
+        if len > 0 {
+            (setting.search_bodies)(setting, region, effort, slot, len, now);
+        }
+    }
+}
+
+/// Looks for contacts of the body in a slot, of the first of two levels, with bodies
+/// of the second, finer one.
+pub(super) fn search_shell<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    effort: &mut Effort,
+    slot: u32,
+    [level, finer]: [usize; 2],
+    now: T,
+) {
+    let middle = region.cells.cell_at(finer, region.agendas[slot as usize].cell);
+    let cells = region.cells.at(finer);
+    // Room for one more cell, and to fill up the last pack.
+    let full = region.found.len() - cells.most_in_cell() - WIDEST;
+    let mut len = 0;
+    for row in 0..region.cells.shell(level, finer).len() {
+        for cell in region.cells.shell(level, finer)[row].cells(middle) {
+            len = region.cells.at(finer).read_cell(cell, &mut region.found, len);
+            if len > full {
+                (setting.search_bodies)(setting, region, effort, slot, len, now);
+                len = 0;
+            }
+        }
+    }
+    if len > 0 {
         (setting.search_bodies)(setting, region, effort, slot, len, now);
     }
 }

@@ -1,6 +1,7 @@
 //! Setting: what all workers read and none writes.
 
-use super::cells::{self, Cells};
+use super::cells;
+use super::levels::Levels;
 use super::near::{self, Near};
 use super::search::{Search, further, searcher};
 use crate::bodies::{Bodies, PerBody};
@@ -46,7 +47,7 @@ pub(super) struct Setting<T: Real> {
 
 impl<T: Real> Setting<T> {
     /// What a scene and its plan say, and the grid of its cells, still empty.
-    pub fn new(scene: Scene<T>, plan: Plan) -> (Self, Cells<T>) {
+    pub fn new(scene: Scene<T>, plan: Plan) -> (Self, Levels<T>) {
         let bodies = scene.bodies;
         let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
         let (features, parts) = features_of(met);
@@ -67,17 +68,17 @@ impl<T: Real> Setting<T> {
             ),
         };
         let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
-        let (cells, spacing) = Cells::fitting(grid, radius + radius, len, bounded);
+        let (cells, spacing) = Levels::fitting(grid, &bodies.radius, len, bounded);
         let is_periodic = scene.periodic.is_some();
-        let near = Near::new(&features, &images, &cells, grid.ends, radius);
+        let near = Near::new(&features, &images, cells.finest(), grid.ends, radius);
         let setting = Self {
             gravity: scene.gravity,
             periodic: scene.periodic,
             features,
             parts,
             images,
-            further: further(&cells, is_periodic),
-            coarse_further: further(&cells, is_periodic),
+            further: further(cells.coarsest(), is_periodic),
+            coarse_further: further(cells.coarsest(), is_periodic),
             has_cells: plan.has_pairs || near.has_cells(),
             near,
             search_bodies: searcher(&plan, is_periodic),

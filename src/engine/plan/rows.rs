@@ -45,10 +45,10 @@ impl fmt::Display for Plan {
         )?;
         row(
             "surfaces",
-            match (contacts, self.is_rough) {
-                (false, _) => "skipped: there are no contacts",
-                (true, false) => "smooth: spins are never read",
-                (true, true) => "rough: spins are read and changed at contacts",
+            &match (contacts, self.changes_spins) {
+                (false, _) => "skipped: there are no contacts".to_owned(),
+                (true, false) => format!("{}: spins are never read", self.surface),
+                (true, true) => format!("{}: spins are read and changed at contacts", self.surface),
             },
         )?;
         row(

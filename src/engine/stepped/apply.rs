@@ -51,7 +51,7 @@ fn give<T: Real>(
     spin: Vec3<T>,
 ) -> T {
     let slot = slot as usize;
-    if setting.plan.is_rough {
+    if setting.plan.changes_spins {
         let index = state.index[slot] as usize;
         state.catch_up(index, clock.steps, setting.dt, contact.ago);
         put(&mut state.spin, index, spin);
@@ -88,7 +88,7 @@ fn event<T: Real>(
     let normal = outcome.offset * (T::ONE / length);
     let at_contact = |velocity: Vec3<T>| path.velocity(path.end_velocity(velocity), contact.ago);
     // Contacts of smooth bodies do not read spins.
-    let spin_after = |slot: u32, spin: Vec3<T>| match setting.plan.is_rough {
+    let spin_after = |slot: u32, spin: Vec3<T>| match setting.plan.changes_spins {
         true => spin,
         false => at(&state.spin, state.index[slot as usize] as usize),
     };

@@ -23,7 +23,8 @@ pub(super) fn renew<L: Lane<Scalar = T>, T: Real>(
         true => nearby.broadphase.swept(travel),
     };
     let pairs = setting.plan.has_pairs;
-    let alone = if pairs { T::ZERO } else { travel * T::whole(STEPS_ALONE) };
+    let is_alone = !pairs && !nearby.broadphase.has_many_parts();
+    let alone = if is_alone { travel * T::whole(STEPS_ALONE) } else { T::ZERO };
     let skin = nearby.broadphase.skin(travel, nearby.skin).greater(swept).greater(alone);
     nearby.skin = skin;
     let (periodic, features, workers) = (setting.periodic, &setting.features, &setting.workers);
@@ -31,7 +32,7 @@ pub(super) fn renew<L: Lane<Scalar = T>, T: Real>(
     let order = nearby.broadphase.sort(&surveyed, skin, workers);
     state.reorder(order, workers);
     let surveyed = state.surveyed(periodic, features, pairs);
-    nearby.broadphase.search::<L>(&surveyed, skin, &mut nearby.candidates, workers);
+    nearby.broadphase.search::<L, _>(&surveyed, skin, &mut nearby.candidates, workers);
     // Within the step just taken bodies were further apart or nearer by as much.
     nearby.travelled = if setting.is_within_step() { travel } else { T::ZERO };
 }

@@ -10,7 +10,7 @@ use crate::bodies::{Figure, PerBody, Same, at};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::scene::Impact;
-use crate::space::broadphase::{Candidates, Chunk, Pair};
+use crate::space::broadphase::{Candidates, Chunk};
 use crate::space::{OpenSpace, Space};
 
 /// Finds all contacts of the step, in their order, when bodies move by `travel`
@@ -87,8 +87,8 @@ fn search_with<L: Lane<Scalar = T>, T: Real, R: Figure<T>>(
             }
         }
     }
-    for (number, (feature, near)) in setting.features.iter().zip(&chunk.at_feature).enumerate() {
-        let feature = (number as u32, feature);
+    for (number, near) in chunk.at_parts() {
+        let feature = (number, &setting.features[number as usize]);
         touching_surroundings::<L, _, _, _>(state, detection, radius, feature, near, found);
     }
 }
@@ -108,15 +108,7 @@ pub(super) fn find_again<T: Real>(setting: &Setting<T>, region: &mut Region<T>) 
     let within = WithinStep { path: setting.path, sweep: nearby.travelled + nearby.travelled };
     let mut found = Vec::new();
     for chunk in &nearby.candidates.chunks {
-        let mut near = Chunk::default();
-        for (near, pairs) in near.pairs.iter_mut().zip(&chunk.pairs) {
-            let is_struck = |&&[a, b]: &&Pair| rounds.is_struck(a) || rounds.is_struck(b);
-            near.extend(pairs.iter().filter(is_struck));
-        }
-        near.at_feature.resize_with(setting.features.len(), Vec::new);
-        for (near, bodies) in near.at_feature.iter_mut().zip(&chunk.at_feature) {
-            near.extend(bodies.iter().filter(|&&body| rounds.is_struck(body)));
-        }
+        let near = chunk.of(|body| rounds.is_struck(body));
         search::<T, T>(setting, state, nearby, within, &near, &mut found);
     }
     let found = found.into_iter().filter_map(|contact| on_new_path(setting, region, contact));

@@ -5,7 +5,7 @@ use super::narrow::{WIDEST, gather, offset};
 use super::path::Path;
 use super::state::State;
 use crate::bodies::PerBody;
-use crate::contact::{Impulse, Laws, Party, collide};
+use crate::contact::{Impulse, Laws, Party, collide, one_material};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::space::Space;
@@ -204,11 +204,6 @@ impl<S, W> Impacts<S, W> {
         }
         write(outcomes, arm, impulse, a, Party::immovable());
     }
-}
-
-/// A scene has one material.
-fn one_material(_: usize) -> [u32; 2] {
-    [0; 2]
 }
 
 /// The bodies at some slots, their shares of the offset still open.

@@ -52,7 +52,7 @@ impl<T: Real> Region<T> {
         let slots = if setting.has_contacts() { len } else { 0 };
         Self {
             nearby: Nearby {
-                broadphase: BroadPhase::new(&state.radius, len),
+                broadphase: BroadPhase::new(&state.radius, len, setting.features.as_slice()),
                 candidates: Candidates::default(),
                 skin: T::ZERO,
                 travelled: T::ZERO,

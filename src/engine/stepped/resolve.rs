@@ -10,7 +10,7 @@ use super::record::Record;
 use super::region::Region;
 use super::setting::Setting;
 use super::state::State;
-use crate::contact::{Laws, Rough, Smooth};
+use crate::contact::{Laws, with_law};
 use crate::engine::account::Account;
 use crate::lane::Lane;
 use crate::real::Real;
@@ -92,20 +92,10 @@ fn impulses_of_kind<L: Lane<Scalar = T>, T: Real>(
     contacts: &[Contact<T>],
     outcomes: &mut [Outcome<T>],
 ) {
-    match (setting.periodic, setting.plan.is_rough) {
-        (None, false) => {
-            impulses_in::<L, T, _, _>(setting, state, OpenSpace, Smooth, contacts, outcomes);
-        }
-        (None, true) => {
-            impulses_in::<L, T, _, _>(setting, state, OpenSpace, Rough, contacts, outcomes);
-        }
-        (Some(space), false) => {
-            impulses_in::<L, T, _, _>(setting, state, space, Smooth, contacts, outcomes);
-        }
-        (Some(space), true) => {
-            impulses_in::<L, T, _, _>(setting, state, space, Rough, contacts, outcomes);
-        }
-    }
+    with_law!(setting.plan.surface, law => match setting.periodic {
+        None => impulses_in::<L, T, _, _>(setting, state, OpenSpace, law, contacts, outcomes),
+        Some(space) => impulses_in::<L, T, _, _>(setting, state, space, law, contacts, outcomes),
+    });
 }
 
 fn impulses_in<L: Lane<Scalar = T>, T: Real, S: Space<T>, W: Laws<T>>(

@@ -98,8 +98,14 @@ impl<T: Real> State<T> {
         periodic: Option<PeriodicBox<T>>,
         features: &'a [Feature<T>],
         pairs: bool,
-    ) -> Surveyed<'a, T> {
-        Surveyed { position: &self.position, radius: &self.radius, periodic, features, pairs }
+    ) -> Surveyed<'a, T, [Feature<T>]> {
+        Surveyed {
+            position: &self.position,
+            radius: &self.radius,
+            periodic,
+            parts: features,
+            pairs,
+        }
     }
 
     /// Gives every body an orientation of its own.

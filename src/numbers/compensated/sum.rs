@@ -38,6 +38,12 @@ impl CompensatedSum {
     }
 
     /// What the value leaves out of the sum, as far as it is known.
+    ///
+    /// ```
+    /// use carom::compensated::CompensatedSum;
+    /// let sum: CompensatedSum = [1.0, 1e-20].into_iter().collect();
+    /// assert_eq!((sum.value(), sum.remainder()), (1.0, 1e-20));
+    /// ```
     #[inline]
     #[must_use]
     pub fn remainder(&self) -> f64 {

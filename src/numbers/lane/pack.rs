@@ -198,7 +198,6 @@ pack!(
     f32x4: [f32; 4];
     f32x8: [f32; 8], eight_of_f32;
     f32x16: [f32; 16], sixteen_of_f32;
-    f64x2: [f64; 2];
     f64x4: [f64; 4], four_of_f64;
     f64x8: [f64; 8], eight_of_f64;
 );

@@ -7,7 +7,15 @@ use super::{Lane, Mask};
 
 /// `2 × L::WIDTH` reals in two lanes of type `L`: sixteen `f64` are two
 /// `wide::f64x8`.
-#[derive(Clone, Copy, Debug)]
+///
+/// ```
+/// use carom::lane::{Lane, Twin};
+/// use wide::f64x8;
+///
+/// let sixteen = Twin::<f64x8>::from_fn(|k| k as f64);
+/// assert_eq!((sixteen * sixteen).to_array()[15], 225.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twin<L>(pub L, pub L);
 
 /// The mask of a [`Twin`].

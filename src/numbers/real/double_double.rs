@@ -232,7 +232,7 @@ impl Real for DoubleDouble {
     const ROUNDING_MAGIC: Self = Self::ZERO;
     const WHOLE_FROM: Self = Self::new(1.0 / (f64::EPSILON * f64::EPSILON), 0.0);
     const SPLITTER: Self = Self::ONE;
-    const QUARTER_TURNS_TOLD: Self = Self::new((1_u64 << 47) as f64, 0.0);
+    const MOST_QUARTER_TURNS: Self = Self::new((1_u64 << 47) as f64, 0.0);
     const QUARTER_TURN: [Self; 3] = [
         Self::new(core::f64::consts::FRAC_PI_2, 0.0),
         Self::new(6.123233995736766e-17, 0.0),

@@ -1,4 +1,4 @@
-//! Candidates: pairs of bodies, and bodies at fixed features, that may touch.
+//! Candidates: pairs of bodies, and bodies at fixed parts, that may touch.
 
 use core::ops::Range;
 
@@ -6,8 +6,7 @@ use super::grid::Grid;
 use crate::bodies::Figure;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
-use crate::space::Space;
-use crate::surroundings::Feature;
+use crate::space::{Bounds, FixedParts, Space, Tree, joined};
 use crate::vec3::Vec3;
 
 /// Bodies searched as one piece of work.
@@ -17,6 +16,15 @@ const CHUNK: usize = 2048;
 /// bodies can have come through the shells between them; 4 spare nearly half of
 /// all tests, 8 a twentieth more.
 const SHELLS: usize = 4;
+
+/// So few fixed parts are each tested against all bodies; of more, the tree says
+/// which are near.
+pub(super) const FEW_PARTS: usize = 8;
+
+/// A pack of bodies is looked at as one if its box is at most so much wider than
+/// that of its first body. In a dilute system, where bodies far apart share
+/// cells, few packs are.
+const COMPACT: i32 = 4;
 
 /// The places of two bodies.
 pub type Pair = [u32; 2];
@@ -32,8 +40,51 @@ pub struct Chunk {
     /// Pairs whose surfaces were nearer than the skin, by the shell that their
     /// gap was in, innermost first.
     pub pairs: [Vec<Pair>; SHELLS],
-    /// For each feature, the bodies whose surfaces were nearer than the skin.
-    pub at_feature: Vec<Vec<u32>>,
+    /// The bodies whose surfaces were nearer than the skin to fixed parts, part
+    /// by part.
+    at_parts: Vec<u32>,
+    /// Each such part, and where its bodies end.
+    parts: Vec<(u32, usize)>,
+}
+
+impl Chunk {
+    fn clear(&mut self) {
+        self.pairs.iter_mut().for_each(Vec::clear);
+        self.at_parts.clear();
+        self.parts.clear();
+    }
+
+    /// The fixed parts that bodies may touch, and the places of those bodies.
+    pub fn at_parts(&self) -> impl Iterator<Item = (u32, &[u32])> {
+        let mut start = 0;
+        self.parts.iter().map(move |&(part, end)| {
+            let bodies = &self.at_parts[start..end];
+            start = end;
+            (part, bodies)
+        })
+    }
+
+    /// Those of the candidates that the bodies take part in for which `is_kept`.
+    #[must_use]
+    pub fn of(&self, is_kept: impl Fn(u32) -> bool) -> Self {
+        let mut kept = Self::default();
+        for (kept, pairs) in kept.pairs.iter_mut().zip(&self.pairs) {
+            kept.extend(pairs.iter().filter(|&&[a, b]| is_kept(a) || is_kept(b)));
+        }
+        for (part, bodies) in self.at_parts() {
+            kept.at_parts.extend(bodies.iter().filter(|&&body| is_kept(body)));
+            kept.end_part(part);
+        }
+        kept
+    }
+
+    /// Ends the bodies of a part.
+    fn end_part(&mut self, part: u32) {
+        let start = self.parts.last().map_or(0, |last| last.1);
+        if self.at_parts.len() > start {
+            self.parts.push((part, self.at_parts.len()));
+        }
+    }
 }
 
 /// All candidates, in chunks that do not depend on the number of threads.
@@ -45,12 +96,7 @@ pub struct Candidates {
 
 impl Candidates {
     /// Empties the lists and cuts the cells into chunks.
-    pub(super) fn begin<T: Real>(
-        &mut self,
-        grids: &[SearchedGrid<T>],
-        starts: &[u32],
-        features: usize,
-    ) {
+    pub(super) fn begin<T: Real>(&mut self, grids: &[SearchedGrid<T>], starts: &[u32]) {
         let mut used = 0;
         for (number, searched) in grids.iter().enumerate() {
             let place = |rank: u32| starts[(searched.first + rank) as usize] as usize;
@@ -70,17 +116,19 @@ impl Candidates {
             }
         }
         self.chunks.truncate(used);
-        for chunk in &mut self.chunks {
-            chunk.pairs.iter_mut().for_each(Vec::clear);
-            chunk.at_feature.resize_with(features, Vec::new);
-            chunk.at_feature.iter_mut().for_each(Vec::clear);
-        }
+        self.chunks.iter_mut().for_each(Chunk::clear);
     }
 
     /// How many pairs are candidates.
     #[must_use]
     pub fn pair_count(&self) -> usize {
         self.chunks.iter().flat_map(|chunk| &chunk.pairs).map(Vec::len).sum()
+    }
+
+    /// How many candidates are bodies at fixed parts.
+    #[must_use]
+    pub fn at_parts_count(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.at_parts.len()).sum()
     }
 
     /// How many shells are to be tested when two bodies can have come `nearer`
@@ -96,8 +144,9 @@ impl Candidates {
             .iter()
             .map(|chunk| {
                 let pairs: usize = chunk.pairs.iter().map(Vec::capacity).sum();
-                let near: usize = chunk.at_feature.iter().map(Vec::capacity).sum();
-                pairs * size_of::<Pair>() + near * size_of::<u32>()
+                pairs * size_of::<Pair>()
+                    + chunk.at_parts.capacity() * size_of::<u32>()
+                    + chunk.parts.capacity() * size_of::<(u32, usize)>()
             })
             .sum()
     }
@@ -249,27 +298,119 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         }
     }
 
-    /// Finds the bodies of the chunk that are near to a feature, themselves or
+    /// Finds the bodies of the chunk that are near to a fixed part, themselves or
     /// where the periodic box puts them when they leave it.
-    pub fn surroundings<L: Lane<Scalar = T>>(&self, features: &[Feature<T>], chunk: &mut Chunk) {
+    pub fn at_parts<L, P>(&self, parts: &P, tree: &Tree<T>, chunk: &mut Chunk)
+    where
+        L: Lane<Scalar = T>,
+        P: FixedParts<T> + ?Sized,
+    {
         let images = self.space.images();
-        for (feature, near) in features.iter().zip(&mut chunk.at_feature) {
-            for start in chunk.bodies.clone().step_by(L::WIDTH) {
-                let center = self.points(start);
-                let radius = self.radius.load_tail::<L>(start);
-                let is_near = |image: &Vec3<T>| {
-                    let gap = feature.clearance(center + Vec3::splat(*image), radius).gap;
-                    gap.lt(L::splat(self.skin)).bits()
-                };
-                let mut bits = images.iter().map(is_near).fold(0, |all, bits| all | bits);
-                while bits != 0 {
-                    let body = start as u32 + bits.trailing_zeros();
-                    if (body as usize) < chunk.bodies.end {
-                        near.push(body);
-                    }
-                    bits &= bits - 1;
+        if tree.len() <= FEW_PARTS {
+            for part in 0..parts.count() as u32 {
+                self.sweep::<L, P>(parts, part, &images, chunk);
+            }
+            return;
+        }
+        for &part in tree.endless() {
+            self.sweep::<L, P>(parts, part, &images, chunk);
+        }
+        let mut found = Vec::new();
+        for start in chunk.bodies.clone().step_by(L::WIDTH) {
+            let bodies = start..chunk.bodies.end.min(start + L::WIDTH);
+            let one = self.bounds(start..start + 1);
+            let all = self.bounds(bodies.clone());
+            let is_compact = is_within(all, one, T::whole(COMPACT));
+            for &image in &images {
+                if is_compact {
+                    self.test_parts::<L, P>(parts, tree, all, bodies.clone(), image, &mut found);
+                    continue;
+                }
+                for body in bodies.clone() {
+                    let body = body..body + 1;
+                    let bounds = self.bounds(body.clone());
+                    self.test_parts::<T, P>(parts, tree, bounds, body, image, &mut found);
                 }
             }
         }
+        // Two images of a body may be near to a part.
+        found.sort_unstable();
+        found.dedup();
+        for of_part in found.chunk_by(|a, b| a.0 == b.0) {
+            chunk.at_parts.extend(of_part.iter().map(|&(_, body)| body));
+            chunk.end_part(of_part[0].0);
+        }
     }
+
+    /// Tests all bodies of the chunk against one part.
+    fn sweep<L, P>(&self, parts: &P, part: u32, images: &[Vec3<T>], chunk: &mut Chunk)
+    where
+        L: Lane<Scalar = T>,
+        P: FixedParts<T> + ?Sized,
+    {
+        for start in chunk.bodies.clone().step_by(L::WIDTH) {
+            let bodies = start..chunk.bodies.end.min(start + L::WIDTH);
+            let near = |image: &Vec3<T>| self.near_part::<L, P>(parts, part, &bodies, *image);
+            let mut bits = images.iter().map(near).fold(0, |all, bits| all | bits);
+            while bits != 0 {
+                chunk.at_parts.push(start as u32 + bits.trailing_zeros());
+                bits &= bits - 1;
+            }
+        }
+        chunk.end_part(part);
+    }
+
+    /// Tests an image of up to a pack of bodies, which fill `bounds`, against the
+    /// parts near to it.
+    fn test_parts<L, P>(
+        &self,
+        parts: &P,
+        tree: &Tree<T>,
+        bounds: Bounds<T>,
+        bodies: Range<usize>,
+        image: Vec3<T>,
+        found: &mut Vec<(u32, u32)>,
+    ) where
+        L: Lane<Scalar = T>,
+        P: FixedParts<T> + ?Sized,
+    {
+        tree.for_each(bounds.map(|corner| corner + image), |part| {
+            let mut bits = self.near_part::<L, P>(parts, part, &bodies, image);
+            while bits != 0 {
+                found.push((part, bodies.start as u32 + bits.trailing_zeros()));
+                bits &= bits - 1;
+            }
+        });
+    }
+
+    /// Which of up to a pack of bodies are near to a part.
+    #[inline(always)]
+    fn near_part<L, P>(&self, parts: &P, part: u32, bodies: &Range<usize>, image: Vec3<T>) -> u32
+    where
+        L: Lane<Scalar = T>,
+        P: FixedParts<T> + ?Sized,
+    {
+        let center = self.points::<L>(bodies.start) + Vec3::splat(image);
+        let gap = parts.gap(part as usize, center, self.radius.load_tail::<L>(bodies.start));
+        let near = gap.lt(L::splat(self.skin)).bits();
+        if bodies.len() < L::WIDTH { near & ((1 << bodies.len()) - 1) } else { near }
+    }
+
+    /// The box that some bodies and their skin fill.
+    fn bounds(&self, bodies: Range<usize>) -> Bounds<T> {
+        let of = |body: usize| {
+            let center = self.point(body);
+            let reach = self.radius.load::<T>(body) + self.skin;
+            let reach = Vec3::new(reach, reach, reach);
+            [center - reach, center + reach]
+        };
+        let start = bodies.start;
+        bodies.skip(1).map(of).fold(of(start), joined)
+    }
+}
+
+/// Whether a box is at most `times` as wide as another one along each axis.
+fn is_within<T: Real>(all: Bounds<T>, one: Bounds<T>, times: T) -> bool {
+    let [all, one] = [all, one].map(|[lower, upper]| (upper - lower).to_array());
+    (0..3).all(|k| all[k] <= one[k] * times)
 }

@@ -4,21 +4,17 @@ use serde::{Deserialize, Serialize};
 
 use super::order::Seen;
 use crate::bodies::Bodies;
-use crate::engine::{Compiled, Event, Execution, World};
+use crate::engine::{Compiled, Event, Execution, Listener, World};
 use crate::lane::Lane;
 use crate::observe::Temperature;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::EngineKind;
 use crate::scene::{Encounters, SceneFile};
 use crate::space::PeriodicBox;
-use crate::study::StudyError;
 use crate::study::clock::outlook;
 use crate::study::invariants::Invariants;
+use crate::study::{Course, StudyError};
 use crate::vec3::Vec3;
-
-/// Steps or collisions between two looks at the way. More of them in one go save
-/// nothing.
-const STRETCH: u64 = 1 << 20;
 
 /// By how much the speeds of one run differ from those of the next.
 const SPEEDS: i32 = 64;
@@ -62,7 +58,7 @@ pub(super) fn finite(value: f64) -> Option<f64> {
 /// A run under way.
 pub(super) struct Run<T: Real> {
     world: World<T>,
-    length: f64,
+    course: Course,
     samples: u32,
     start: Invariants,
     mass: DoubleDouble,
@@ -100,10 +96,10 @@ impl<T: Compiled> Run<T> {
         let start = Invariants::of(&scene.bodies, gravity);
         // Other runs are made at the same time.
         let world = World::new(scene, Execution { threads: 1, ..Execution::default() })?;
-        let length = world.length(duration);
+        let course = Course::new(&world, duration);
         Ok(Self {
             world,
-            length,
+            course,
             samples,
             start,
             mass,
@@ -124,21 +120,22 @@ impl<T: Compiled> Run<T> {
     pub(super) fn advance(
         &mut self,
         point: u32,
-        mut seen: Option<&mut Vec<Seen>>,
+        seen: Option<&mut Vec<Seen>>,
     ) -> Result<(), StudyError> {
-        let part = self.length * f64::from(point) / f64::from(self.samples);
+        let part = self.course.length() * f64::from(point) / f64::from(self.samples);
         let mark = match self.world.plan().engine {
             EngineKind::Stepped => part.round(),
             EngineKind::EventDriven => part,
         };
-        match &mut seen {
-            None => while !self.world.advance(mark, self.length, STRETCH, None)? {},
+        let mut note;
+        let on_event: Listener<'_, T> = match seen {
+            None => None,
             Some(seen) => {
-                let mut note = |event: &Event<T>| seen.push(Seen::of(event));
-                while !self.world.advance(mark, self.length, STRETCH, Some(&mut note))? {}
+                note = |event: &Event<T>| seen.push(Seen::of(event));
+                Some(&mut note)
             }
-        }
-        Ok(())
+        };
+        Ok(self.course.finish(&mut self.world, mark, on_event)?)
     }
 
     /// Looks at the bodies, which are those of the world now.
@@ -169,7 +166,7 @@ impl<T: Compiled> Run<T> {
 
     /// Seconds that the whole way should take, from so many of its beginning.
     pub(super) fn probe(&mut self, longest: f64) -> Result<f64, StudyError> {
-        Ok(outlook(&mut self.world, self.length, longest)?)
+        Ok(outlook(&mut self.world, self.course, longest)?)
     }
 }
 

@@ -7,6 +7,7 @@ use crate::lane::Lane;
 use crate::real::Real;
 use crate::scene::{EngineKind, Impact};
 use crate::scene::{Scene, SceneBuilder, Sphere};
+use crate::study::Course;
 
 pub(super) const CASE: Case = Case {
     name: "cradle",
@@ -62,8 +63,8 @@ fn cradle<T: Studied>(row: BallRow) -> Trial {
         let masses: Vec<T::Judge> =
             (0..row.balls).map(|k| scene.bodies.mass.of(k).cast()).collect();
         let mut world = World::new(scene, Execution { threads: 1, ..Execution::default() })?;
-        let length = world.length(time);
-        while !world.advance(length, length, 1 << 12, None)? {}
+        let course = Course::new(&world, time);
+        course.finish(&mut world, course.length(), None)?;
         let (bodies, is) = (world.bodies(), T::PRECISION);
         let name = |what: &str| format!("{what}, {}", row.name);
         let collisions = row.moving * (row.balls - row.moving);

@@ -74,7 +74,7 @@ fn chaotic<T: Studied>(surface: Surface, bodies: u64, seed: u64) -> Trial {
 fn regular<T: Studied>(surface: Surface, bounces: u64) -> Trial {
     let name = match surface {
         Surface::Smooth => "a ball in a box",
-        Surface::Rough => "a superball",
+        _ => "a superball",
     };
     trial::<T, Findings>(name, 1.3e-6 * bounces as f64, move || {
         let ball = Sphere::new([1.0, 1.25, 0.75]).radius(0.5);
@@ -83,7 +83,7 @@ fn regular<T: Studied>(surface: Surface, bounces: u64) -> Trial {
             .sphere(ball.velocity([0.6180339, 0.4142135, 1.0]));
         let scene = match surface {
             Surface::Smooth => builder.surroundings(Cuboid::container(t3([0.0; 3]), t3([3.0; 3]))),
-            Surface::Rough => builder
+            _ => builder
                 .surroundings(Plane::new(t3([0.0; 3]), t3([0.0, 0.0, 1.0])))
                 .surroundings(Plane::new(t3([0.0, 0.0, 3.0]), t3([0.0, 0.0, -1.0]))),
         };

@@ -2,16 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::method::{Method, Stepping};
+use super::method::Method;
 use super::reference::{Reference, collisions_of_a_body};
 use super::sweep::Sweep;
 use crate::engine::{Compiled, EngineError, Execution, World};
 use crate::observe::{StateHash, state_hash};
 use crate::real::Real;
 use crate::scene::{Precision, Scene, SceneFile};
-use crate::study::StudyError;
 use crate::study::clock::{Timing, Variant, outlook, rounds, seconds};
 use crate::study::deviation::Deviation;
+use crate::study::{Course, StudyError};
 
 /// What was measured of a method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ fn measure_in<T: Compiled>(
     let mut world = World::new(scene.clone(), Execution::default())?;
     let mut moments = Vec::new();
     for &stated in &sweep.times {
-        advance(&mut world, method, stated)?;
+        advance(&mut world, stated)?;
         let time = method.time_near(stated);
         let Some(state) = reference.at(time) else { continue };
         let deviation = state.truth.deviation(&world.bodies());
@@ -86,13 +86,9 @@ fn measure_in<T: Compiled>(
 }
 
 /// Advances a world to the time nearest to a stated one.
-fn advance<T: Real>(world: &mut World<T>, method: &Method, stated: f64) -> Result<(), EngineError> {
-    let mark = match method.stepping {
-        None => stated,
-        Some(Stepping { dt, .. }) => (stated / dt).round().max(1.0),
-    };
-    while !world.advance(mark, mark, u64::MAX, None)? {}
-    Ok(())
+fn advance<T: Real>(world: &mut World<T>, stated: f64) -> Result<(), EngineError> {
+    let course = Course::new(world, stated);
+    course.finish(world, course.length(), None)
 }
 
 /// The seconds from a scene to its end, whose bits have to be these.
@@ -106,7 +102,7 @@ fn timed_run<T: Compiled>(
     let scene = scene.clone();
     let (world, seconds) = seconds(|| {
         let mut world = World::new(scene, execution)?;
-        advance(&mut world, method, end)?;
+        advance(&mut world, end)?;
         Ok::<_, EngineError>(world)
     });
     let world = world?;
@@ -135,7 +131,7 @@ fn probe_in<T: Compiled>(file: &SceneFile, method: &Method, end: f64) -> Result<
     let alone = Execution { threads: 1, ..Execution::default() };
     (0..3).try_fold(f64::MAX, |least, _| {
         let mut world = World::new(scene.clone(), alone)?;
-        let length = world.length(end);
-        Ok(least.min(outlook(&mut world, length, ENOUGH)?))
+        let course = Course::new(&world, end);
+        Ok(least.min(outlook(&mut world, course, ENOUGH)?))
     })
 }

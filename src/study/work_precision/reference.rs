@@ -4,8 +4,8 @@
 use crate::engine::{Compiled, Execution, World};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
-use crate::study::StudyError;
 use crate::study::deviation::{Deviation, LOST, Truth};
+use crate::study::{Course, StudyError};
 
 use super::method::Method;
 
@@ -55,7 +55,8 @@ impl<T: Compiled> Run<T> {
     }
 
     fn truth_at(&mut self, time: f64) -> Result<Truth<T>, StudyError> {
-        while !self.world.advance(time, time, u64::MAX, None)? {}
+        let course = Course::new(&self.world, time);
+        course.finish(&mut self.world, course.length(), None)?;
         Ok(Truth::of(&self.world, self.scene.gravity, self.scene.periodic))
     }
 

@@ -29,16 +29,16 @@ struct Resident {
 
 /// Two spheres in the same place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Overlapping {
+pub(crate) struct Overlapping {
     /// Who is there already.
-    pub(super) id: u32,
+    pub(crate) id: u32,
     /// By how much they overlap, length.
-    pub(super) depth: f64,
+    pub(crate) depth: f64,
 }
 
 /// A table of spheres by place.
 #[derive(Debug)]
-pub(super) struct Neighbours {
+pub(crate) struct Neighbours {
     periodic: Option<PeriodicBox<f64>>,
     /// Relative error of a coordinate, for the tolerance.
     epsilon: f64,
@@ -53,7 +53,7 @@ pub(super) struct Neighbours {
 impl Neighbours {
     /// An empty table for `capacity` spheres. Overlaps that rounding explains,
     /// of coordinates with relative error `epsilon`, are none.
-    pub(super) fn new(
+    pub(crate) fn new(
         capacity: usize,
         greatest_radius: f64,
         epsilon: f64,
@@ -70,7 +70,7 @@ impl Neighbours {
     }
 
     /// The level that a sphere of this radius belongs to.
-    pub(super) fn level(&self, radius: f64) -> u32 {
+    pub(crate) fn level(&self, radius: f64) -> u32 {
         let mut level = 0;
         let mut half = self.greatest_radius / 2.0;
         while radius <= half && level < FINEST {
@@ -81,14 +81,14 @@ impl Neighbours {
     }
 
     /// A key by which nearby places sort together, for the sake of the cache.
-    pub(super) fn order(&self, level: u32, center: [f64; 3]) -> u64 {
+    pub(crate) fn order(&self, level: u32, center: [f64; 3]) -> u64 {
         const MASK: u64 = (1 << 21) - 1;
         let [x, y, z] = center.map(|c| self.cell(level, c) as u64 & MASK);
         z << 42 | y << 21 | x
     }
 
     /// Adds a sphere.
-    pub(super) fn insert(&mut self, id: u32, center: [f64; 3], radius: f64) {
+    pub(crate) fn insert(&mut self, id: u32, center: [f64; 3], radius: f64) {
         let level = self.level(radius);
         let cells = center.map(|c| self.cell(level, c));
         let bucket = self.bucket(level, cells);
@@ -99,7 +99,7 @@ impl Neighbours {
     }
 
     /// A sphere of the table that overlaps this one.
-    pub(super) fn overlapping(&self, center: [f64; 3], radius: f64) -> Option<Overlapping> {
+    pub(crate) fn overlapping(&self, center: [f64; 3], radius: f64) -> Option<Overlapping> {
         let Some(periodic) = self.periodic else {
             return self.overlapping_here(center, radius);
         };
@@ -246,26 +246,26 @@ const FAR: u64 = 1 << 52;
 /// touch at distance `reach`: some units in the last place, and never more than
 /// a hundredth of `reach`, or spheres too far away for their precision would
 /// lie in each other unseen.
-pub(super) fn tolerance(epsilon: f64, coordinate: f64, reach: f64) -> f64 {
+pub(crate) fn tolerance(epsilon: f64, coordinate: f64, reach: f64) -> f64 {
     (8.0 * epsilon * (coordinate + reach)).min(0.01 * reach)
 }
 
 /// The largest coordinate.
-pub(super) fn largest(point: [f64; 3]) -> f64 {
+pub(crate) fn largest(point: [f64; 3]) -> f64 {
     point.iter().fold(0.0, |most: f64, c| most.max(c.abs()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::Neighbours;
-    use crate::scene::random::{Purpose, Random};
     use crate::space::PeriodicBox;
+    use crate::space::noise::noise;
 
     /// Every overlap is found, as a search of all pairs finds it, over four
     /// decades of radii.
     #[test]
     fn agrees_with_a_search_of_all_pairs() {
-        let mut random = Random::new(3, 0, Purpose::Position);
+        let mut noise = noise();
         for (periodic, trial) in [false, true].into_iter().zip(0..).cycle().take(20) {
             let side = 10.0;
             let space = periodic.then(|| PeriodicBox::new([0.0; 3], [side; 3]));
@@ -273,9 +273,9 @@ mod tests {
             let mut all: Vec<([f64; 3], f64)> = Vec::new();
             let mut overlaps = 0;
             for id in 0..400 {
-                let power = random.between(0.0, 1.0);
+                let power = noise();
                 let radius = if trial % 2 == 0 { 2.0 * power * power * power } else { 0.3 };
-                let center = [(); 3].map(|()| random.between(0.0, side));
+                let center = [(); 3].map(|()| side * noise());
                 let depth = |other: &([f64; 3], f64)| {
                     let mut square = 0.0;
                     for (a, b) in center.iter().zip(other.0) {
