@@ -9,7 +9,7 @@
 //!
 //! A study is made of [points](Point), whose results go into the [`Journal`] of a
 //! [`Folder`] as soon as they are there: an interrupted study goes on where it
-//! was. Nobody has to have a folder:
+//! was. A folder is not needed:
 //!
 //! ```
 //! use carom::scene::SceneFile;

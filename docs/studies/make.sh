@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Makes the studies behind docs/accuracy.md anew: their reports, their pictures,
+# Makes the studies behind docs/accuracy.md: their reports, their pictures,
 # and the parts of the page that are taken from the reports.
 #
 #   docs/studies/make.sh             # all, about a quarter of an hour on two cores
 #   docs/studies/make.sh --quick     # with the stress suite a hundred times smaller
 #
-# Interrupted, it goes on where it was. To begin anew, remove target/studies.
+# Interrupted, it goes on where it was. To begin again, remove target/studies.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// What a shell reports for a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// Removes these temporary files if the program is interrupted or told to end.
+/// Removes these temporary files if the program is interrupted or asked to end.
 /// Without any, the system ends the program as it ends any other.
 pub fn remove_on_interrupt(temporary: Vec<PathBuf>) {
     if temporary.is_empty() {

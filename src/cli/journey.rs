@@ -89,8 +89,8 @@ impl Journey {
         self.busy.as_secs_f64()
     }
 
-    /// The mean translational temperature over the run; `None` where nobody
-    /// needs it.
+    /// The mean translational temperature over the run; `None` where it is
+    /// not needed.
     pub fn mean_temperature(&self) -> Option<f64> {
         let samples = self.samples.as_ref()?;
         Some(samples.integral / self.course.length())

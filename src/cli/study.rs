@@ -130,7 +130,7 @@ pub struct StudyFolder {
     #[arg(long, value_name = "FOLDER")]
     output: Option<PathBuf>,
 
-    /// Forget what is in the folder, and begin anew
+    /// Forget what is in the folder, and begin again
     #[arg(long)]
     restart: bool,
 }

@@ -139,7 +139,7 @@ pub struct MomentumSummary {
     pub from_surroundings: [f64; 3],
     /// Given by gravity: mass × acceleration × time.
     pub from_gravity: [f64; 3],
-    /// What nobody gave: final − initial − the two above.
+    /// What neither gave: final − initial − the two above.
     pub balance_error: [f64; 3],
 }
 

@@ -25,18 +25,13 @@ pub(super) type GivenBox<T> = Given<PeriodicBox<T>, PeriodicBox<f64>>;
 impl<T: Real> GivenBox<T> {
     /// A box in the scene's precision.
     pub(super) fn rounded(rounded: PeriodicBox<T>) -> Self {
-        Self { rounded, exact: cast(rounded) }
+        Self { rounded, exact: rounded.cast() }
     }
 
     /// A box in `f64`.
     pub(super) fn exact(exact: PeriodicBox<f64>) -> Self {
-        Self { rounded: cast(exact), exact }
+        Self { rounded: exact.cast(), exact }
     }
-}
-
-/// A periodic box in another precision.
-fn cast<A: Real, B: Real>(space: PeriodicBox<A>) -> PeriodicBox<B> {
-    PeriodicBox { lower: space.lower.cast(), upper: space.upper.cast() }
 }
 
 /// A fixed shape in both.

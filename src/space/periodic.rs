@@ -70,6 +70,18 @@ impl<T: Real> PeriodicBox<T> {
         Self { lower: lower.into(), upper: upper.into() }
     }
 
+    /// The same box in another precision.
+    ///
+    /// ```
+    /// use carom::PeriodicBox;
+    /// let box_in_f32 = PeriodicBox::new([0.0_f64; 3], [0.1; 3]).cast::<f32>();
+    /// assert_eq!(box_in_f32.upper.x, 0.1_f32);
+    /// ```
+    #[must_use]
+    pub fn cast<B: Real>(self) -> PeriodicBox<B> {
+        PeriodicBox { lower: self.lower.cast(), upper: self.upper.cast() }
+    }
+
     /// The lengths of its sides.
     #[must_use]
     pub fn sides(&self) -> Vec3<T> {

@@ -64,7 +64,7 @@ pub fn seconds<R>(work: impl FnOnce() -> R) -> (R, f64) {
     (result, start.elapsed().as_secs_f64())
 }
 
-/// Times each variant in so many rounds, there and back: who goes first in one
+/// Times each variant in a number of rounds, there and back: who goes first in one
 /// round goes last in the next. Nothing is run to warm up.
 ///
 /// # Errors

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct Estimate {
     /// The figure.
     pub value: f64,
-    /// Its standard error; 0 where it cannot be told.
+    /// Its standard error; 0 where it is not known.
     pub error: f64,
 }
 

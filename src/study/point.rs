@@ -24,7 +24,7 @@ pub struct Point<'a, R> {
     measure: Measure<'a, R>,
 }
 
-/// Whom a study tells how far it is.
+/// What a study reports its progress to.
 pub trait Watch: Sync {
     /// This is done before the points are begun.
     fn says(&self, what: &str) {
@@ -39,7 +39,7 @@ pub trait Watch: Sync {
     fn is_done(&self, key: &str, seconds_left: f64);
 }
 
-/// Nobody watches.
+/// Without a watcher.
 impl Watch for () {
     fn begins(&self, _: usize, _: usize, _: f64) {}
     fn is_done(&self, _: &str, _: f64) {}

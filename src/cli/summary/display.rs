@@ -8,7 +8,7 @@ use carom::study::table::{Table, counted, difference, digits, grouped, plain, ro
 /// The labels of a vector's rows.
 const AXES: [&str; 3] = ["  x", "  y", "  z"];
 
-/// From so many bodies on a temperature says something.
+/// Bodies from which a temperature says something.
 const A_GAS: usize = 100;
 
 impl fmt::Display for Summary {

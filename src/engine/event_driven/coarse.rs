@@ -49,24 +49,13 @@ pub(super) struct Scales {
     pub period: f64,
 }
 
-fn coarse<T: Real, C: Real>(value: T) -> C {
-    C::from_f64(value.to_f64())
-}
-
-fn coarse_vector<T: Real, C: Real>(vector: Vec3<T>) -> Vec3<C> {
-    Vec3::new(coarse(vector.x), coarse(vector.y), coarse(vector.z))
-}
-
 impl<C: Real> Coarse<C> {
     pub fn new<T: Real>(gravity: Vec3<T>, periodic: Option<PeriodicBox<T>>) -> Self {
         Self {
             is_useful: false,
             records: Vec::new(),
-            gravity: coarse_vector(gravity),
-            periodic: periodic.map(|space| PeriodicBox {
-                lower: coarse_vector(space.lower),
-                upper: coarse_vector(space.upper),
-            }),
+            gravity: gravity.cast(),
+            periodic: periodic.map(PeriodicBox::cast),
             margin: C::ZERO,
             slack: C::ZERO,
         }
@@ -93,10 +82,10 @@ impl<C: Real> Coarse<C> {
 
     fn record<T: Real>(&self, flight: &Flight<T>) -> Record<C> {
         Record::new(Flight {
-            position: coarse_vector(flight.position),
-            velocity: coarse_vector(flight.velocity),
-            since: coarse(flight.since),
-            radius: coarse::<T, C>(flight.radius) + self.margin,
+            position: flight.position.cast(),
+            velocity: flight.velocity.cast(),
+            since: flight.since.cast(),
+            radius: flight.radius.cast::<C>() + self.margin,
         })
     }
 

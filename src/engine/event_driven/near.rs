@@ -162,17 +162,13 @@ pub(super) fn region<T: Real>(
     features: &[Feature<T>],
     centers: impl Iterator<Item = Vec3<T>>,
 ) -> Region<T> {
-    let lesser =
-        |a: Vec3<T>, b: Vec3<T>| Vec3::new(a.x.lesser(b.x), a.y.lesser(b.y), a.z.lesser(b.z));
-    let greater =
-        |a: Vec3<T>, b: Vec3<T>| Vec3::new(a.x.greater(b.x), a.y.greater(b.y), a.z.greater(b.z));
-    let inside = interiors.reduce(|[a, b], [c, d]| [greater(a, c), lesser(b, d)]);
+    let inside = interiors.reduce(|[a, b], [c, d]| [a.greater(c), b.lesser(d)]);
     if let Some([lower, upper]) = inside {
         return Region { lower, upper, ends: Ends::Closed };
     }
     let solids = features.iter().filter_map(Feature::bounds);
     let points = solids.chain(centers.map(|center| [center, center]));
-    let all = points.reduce(|[a, b], [c, d]| [lesser(a, c), greater(b, d)]);
+    let all = points.reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)]);
     let [lower, upper] = all.unwrap_or([Vec3::ZERO, Vec3::ZERO]);
     let missing = |low: T, high: T| (least - (high - low)).greater(T::ZERO) * T::ratio(1, 2);
     let missing =

@@ -116,7 +116,7 @@ impl<T: Compiled> Run<T> {
     }
 
     /// Goes on to a point in time, the last of which is the end, and notes the
-    /// collisions on the way if somebody reads them.
+    /// collisions on the way if they are read.
     pub(super) fn advance(
         &mut self,
         point: u32,

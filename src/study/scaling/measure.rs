@@ -16,7 +16,7 @@ use crate::vec3::Vec3;
 /// small part of it.
 const RUN: f64 = 0.025;
 
-/// The least steps of a run: the stepped engine searches anew every ten or
+/// The least steps of a run: the stepped engine searches again every ten or
 /// twenty steps, which a run has to have its share of.
 const LEAST_STEPS: u64 = 40;
 
@@ -116,7 +116,7 @@ impl Task<'_> {
         let (warm, mut quickest) = self.warm_up(&mut first, before)?;
         let peak = if knows_peak { peak_resident() } else { None };
 
-        // All others begin anew, with the scene made once more: a copy of it from
+        // All others begin again, with the scene made once more: a copy of it from
         // the beginning would have counted as memory of the first.
         let mut worlds = vec![first];
         if let [_, others @ ..] = &self.variants[..]

@@ -12,7 +12,7 @@ use crate::study::table::{Table, counted, plain, seconds};
 
 impl WorkPrecisionReport {
     /// Quantities that tell something: without spins no body turns.
-    fn told(&self) -> Vec<Quantity> {
+    fn shown(&self) -> Vec<Quantity> {
         let any = |quantity: &Quantity| {
             let mut moments = self.outcomes.iter().flat_map(|outcome| &outcome.moments);
             moments.any(|moment| moment.deviation.is_some_and(|d| quantity.of(&d) != 0.0))
@@ -21,9 +21,9 @@ impl WorkPrecisionReport {
     }
 
     fn errors(&self) -> Table {
-        let told = self.told();
+        let shown = self.shown();
         let mut table = Table::default();
-        let heads = told.iter().map(|quantity| match quantity {
+        let heads = shown.iter().map(|quantity| match quantity {
             Quantity::AngularMomentum => "ang. mom.".to_owned(),
             quantity => quantity.to_string(),
         });
@@ -44,7 +44,7 @@ impl WorkPrecisionReport {
                     Some(stepping) => format!("  Δt {:.3e}", stepping.dt),
                 };
                 let spread = (timing.upper_quartile - timing.lower_quartile) / 2.0 / timing.median;
-                let errors = told.iter().map(|&quantity| match self.error(moment, quantity) {
+                let errors = shown.iter().map(|&quantity| match self.error(moment, quantity) {
                     Some(error) => size_of(error),
                     None if moment.deviation.is_none() => "not finite".to_owned(),
                     None => "lost".to_owned(),
@@ -58,26 +58,26 @@ impl WorkPrecisionReport {
 
     fn orders_of_convergence(&self) -> Table {
         let mut table = Table::default();
-        let told = self.told();
+        let shown = self.shown();
         // Those of momentum and angular momentum follow: the files have them.
         let first = &Quantity::ALL[..4];
-        let told: Vec<_> = self
+        let shown: Vec<_> = self
             .orders
             .iter()
-            .filter(|(quantity, _)| first.contains(quantity) && told.contains(quantity))
+            .filter(|(quantity, _)| first.contains(quantity) && shown.contains(quantity))
             .collect();
-        let heads = told.iter().map(|(quantity, _)| quantity.to_string());
+        let heads = shown.iter().map(|(quantity, _)| quantity.to_string());
         table.row("", ["theory".to_owned()].into_iter().chain(heads));
         let families = self.families();
         for family in families.iter().filter(|family| family.stepping.is_some()) {
             let of = |orders: &[Order]| orders.iter().find(|o| o.family == *family).copied();
-            let theory = told.iter().find_map(|(_, orders)| of(orders)).map(|o| o.theory);
+            let theory = shown.iter().find_map(|(_, orders)| of(orders)).map(|o| o.theory);
             let theory = match theory {
                 Some(Theory::First) => "1",
                 Some(Theory::Exact) => "exact",
                 None => "",
             };
-            let found = told.iter().map(|(_, orders)| match of(orders).map(|order| order.found) {
+            let found = shown.iter().map(|(_, orders)| match of(orders).map(|order| order.found) {
                 Some(Found::Power(power)) => format!("{:.2} ± {:.2}", power.value, power.error),
                 Some(Found::Rounding(_)) => "rounding".to_owned(),
                 Some(Found::Nothing) | None => "–".to_owned(),
