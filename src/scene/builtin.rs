@@ -43,6 +43,7 @@ pub fn builtin_scenes() -> &'static [BuiltinScene] {
         "lorentz-gas": "1,000 balls among fixed ones, at their mean free path",
         "pi": "a heavy ball, a light one and a wall: 314,159 collisions",
         "wedge": "a ball between two slopes under gravity, never at rest",
-        "free-flight": "100,000 spinning spheres that meet nobody",
+        "giant-in-dust": "a sphere among 5,000 that are a hundred times smaller",
+        "free-flight": "100,000 spinning spheres that meet nothing",
     }
 }

@@ -54,14 +54,15 @@ impl ScalingReport {
         };
         format!(
             "Medians of {}, each with its quartiles; all variants of a size were run in turn.\n\
-             {speed_up}Peak: of the process with one world, the making of its scene included.\n",
+             {speed_up}Set-up: making the scene and its world.\n\
+             Peak: of the process with one world, the making of its scene included.\n",
             counted(*runs as u64, "run"),
         )
     }
 
     fn times(&self) -> Table {
         let mut table = Table::default();
-        let heading = [self.unit(), "", "speed-up", "", "bytes/body", "peak MB"];
+        let heading = [self.unit(), "", "speed-up", "", "set-up ms", "bytes/body", "peak MB"];
         table.row("", heading.map(str::to_owned));
         for rows in &self.points {
             if let Some(first) = rows.first() {
@@ -77,6 +78,7 @@ impl ScalingReport {
                     ratio.map_or(String::new(), |ratio| {
                         range(ratio.lower_quartile, ratio.upper_quartile)
                     }),
+                    row.set_up.map_or(String::new(), |seconds| rounded(seconds * 1e3)),
                     rounded(row.bytes as f64 / row.bodies as f64),
                     row.peak_resident.map_or(String::new(), |bytes| rounded(bytes as f64 * 1e-6)),
                 ];

@@ -21,6 +21,7 @@ struct Line<'a> {
     upper_quartile: f64,
     bytes_per_body: f64,
     peak_resident_bytes: Option<u64>,
+    set_up_seconds: Option<f64>,
     state_hash: &'a str,
 }
 
@@ -60,6 +61,7 @@ impl ScalingReport {
             upper_quartile: time.upper_quartile,
             bytes_per_body: row.bytes as f64 / row.bodies as f64,
             peak_resident_bytes: row.peak_resident,
+            set_up_seconds: row.set_up,
             state_hash: &row.state_hash,
         }
     }

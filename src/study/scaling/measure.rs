@@ -44,6 +44,10 @@ pub struct Measurement {
     /// making of its scene included, bytes. Of the first variant of a size, where
     /// the system tells.
     pub peak_resident: Option<u64>,
+    /// Making the scene and its world, until the engine can move it, seconds. Of the
+    /// first variant of a size.
+    #[serde(default)]
+    pub set_up: Option<f64>,
     /// The bits of the final state, in hexadecimal digits.
     pub state_hash: String,
 }
@@ -107,7 +111,10 @@ impl Task<'_> {
     /// Runs all variants.
     pub(super) fn measure<T: Compiled>(&self) -> Result<Measured, StudyError> {
         let knows_peak = forget_peak();
-        let mut first = World::new(self.file.build::<T>()?, self.variants[0])?;
+        let (first, set_up) = seconds(|| -> Result<_, StudyError> {
+            Ok(World::new(self.file.build::<T>()?, self.variants[0])?)
+        });
+        let mut first = first?;
         let bodies = first.plan().bodies as u64;
         let before = match self.file.engine {
             EngineKind::Stepped => LEAST_STEPS,
@@ -160,6 +167,7 @@ impl Task<'_> {
             timing,
             bytes: world.bytes() as u64,
             peak_resident: peak.filter(|_| k == 0),
+            set_up: (k == 0).then_some(set_up),
             state_hash: state_hash(&world.bodies()).to_string(),
         });
         Ok(rows.collect())
