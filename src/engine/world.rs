@@ -14,7 +14,7 @@ use crate::vec3::Vec3;
 ///
 /// let scene = SceneFile::builtin("superball").ok_or("no such scene")?.build::<f64>()?;
 /// let mut world = World::new(scene, Execution::default())?;
-/// world.for_each_event(0.5, |event| println!("sphere {} at {}", event.a, event.time))?;
+/// world.for_each_event(1.0, |event| println!("sphere {} at {}", event.a, event.time))?;
 /// assert!(world.collisions().total() > 0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
