@@ -2,9 +2,9 @@
 //! public code.
 //!
 //! ```text
-//! cargo bench --bench event_driven            # two minutes
-//! cargo bench --bench event_driven -- small   # up to 10,976 bodies
-//! cargo bench --bench event_driven -- full    # longer melting, more rounds
+//! cargo bench --manifest-path benches/Cargo.toml --bench event_driven            # two minutes
+//! cargo bench --manifest-path benches/Cargo.toml --bench event_driven -- small   # up to 10,976 bodies
+//! cargo bench --manifest-path benches/Cargo.toml --bench event_driven -- full    # longer melting, more rounds
 //! ```
 //!
 //! Each row runs in a process of its own, so that the greatest resident size is

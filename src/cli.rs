@@ -5,12 +5,14 @@ mod explain;
 mod failure;
 mod interrupt;
 mod journey;
+mod output_file;
 mod outputs;
 mod progress;
 mod run;
 mod scene_argument;
 mod scenes;
 mod study;
+mod summary;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

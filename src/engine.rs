@@ -11,6 +11,7 @@ mod world;
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 pub use account::Effort;
@@ -27,8 +28,9 @@ pub use world::World;
 /// use carom::Lanes;
 /// assert_eq!(Lanes::Eight.to_string(), "8");
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Lanes {
     /// The fastest widths for each kernel.
@@ -37,13 +39,13 @@ pub enum Lanes {
     /// One: the scalar reference path.
     Scalar,
     /// Four.
-    #[serde(rename = "4")]
+    #[cfg_attr(feature = "files", serde(rename = "4"))]
     Four,
     /// Eight.
-    #[serde(rename = "8")]
+    #[cfg_attr(feature = "files", serde(rename = "8"))]
     Eight,
     /// Sixteen.
-    #[serde(rename = "16")]
+    #[cfg_attr(feature = "files", serde(rename = "16"))]
     Sixteen,
 }
 
@@ -82,7 +84,8 @@ pub const MOST_THREADS: usize = 1024;
 /// assert_eq!(world.plan().threads, 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Execution {
     /// How many reals a kernel works on at once.
@@ -133,7 +136,8 @@ impl Execution {
 /// assert_eq!((collisions.total(), collisions.ends()), (1, 1));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize))]
 #[non_exhaustive]
 pub struct Collisions {
     /// Between two bodies.

@@ -26,7 +26,7 @@
 //!
 //! [`Stepped::new`] takes the same scene once it has a step: `.dt(1e-3)` before
 //! `.build()`. The same scene as a file for the program `carom` is in
-//! [`docs/scene-file.md`](https://github.com/carom-rs/carom/blob/main/docs/scene-file.md).
+//! `docs/scene-file.md` of the repository.
 //!
 //! # Modules, in the order of the data
 //!
@@ -107,6 +107,7 @@ pub mod engine;
 pub mod motion;
 mod numbers;
 pub mod observe;
+#[cfg(feature = "files")]
 pub mod output;
 pub mod scene;
 pub mod space;
@@ -122,10 +123,14 @@ pub use bodies::Bodies;
 pub use contact::Surface;
 pub use engine::{EngineError, Event, EventDriven, Execution, Lanes, Partner, Stepped};
 pub use motion::Integrator;
-pub use observe::{AngularMomentum, Energy, Momentum, Temperature, state_hash};
+#[cfg(feature = "files")]
+pub use observe::state_hash;
+pub use observe::{AngularMomentum, Energy, Momentum, Temperature};
 #[cfg(feature = "study")]
 pub use real::DoubleDouble;
-pub use scene::{Encounters, Impact, Scene, SceneBuilder, SceneError, SceneFile, Sphere, Spheres};
+#[cfg(feature = "files")]
+pub use scene::SceneFile;
+pub use scene::{Encounters, Impact, Scene, SceneBuilder, SceneError, Sphere, Spheres};
 pub use space::PeriodicBox;
 pub use surroundings::{Cuboid, FixedSphere, Plane};
 pub use vec3::Vec3;

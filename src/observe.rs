@@ -23,12 +23,14 @@ mod energy;
 mod gas;
 mod momentum;
 mod of_world;
+#[cfg(feature = "files")]
 mod state_hash;
 mod totals;
 
 pub use energy::{Energy, integrator_drift};
 pub use gas::{Temperature, collision_rate, compressibility};
 pub use momentum::{AngularMomentum, Momentum};
+#[cfg(feature = "files")]
 pub use state_hash::{StateHash, state_hash};
 pub use totals::Totals;
 

@@ -1,42 +1,33 @@
-//! Output: what a run leaves behind.
+//! Output: what happens in a run, as files.
 //!
-//! Events and states go to files ([`OutputFile`]) as comma-separated values
-//! with all their digits; the [`Summary`] is printed for a person or as JSON.
+//! Events and states become comma-separated values with all their digits, on
+//! anything that implements [`io::Write`].
 
 mod events;
-mod file;
-mod report;
 mod state;
-mod summary;
-pub(crate) mod table;
 
 pub use events::{EVENT_COLUMNS, EventWriter};
-pub use file::{Destination, OutputError, OutputFile};
 pub use state::{STATE_COLUMNS, write_state};
-pub use summary::{
-    AngularMomentumSummary, EnergyParts, EnergySummary, MomentumSummary, Setup, Summary, Work,
-    shortest,
-};
 
 use core::fmt::{self, Write as _};
 use std::io;
 
 use crate::real::Real;
 
-/// A row of comma-separated values under way: numbers become the shortest
+/// A line of comma-separated values under way: numbers become the shortest
 /// digits that read back as the same bits.
 #[derive(Debug, Default)]
-struct Row {
+struct CsvLine {
     fields: csv::ByteRecord,
     digits: String,
 }
 
-impl Row {
+impl CsvLine {
     /// Adds numbers, one field each.
     fn numbers<T: Real>(&mut self, values: impl IntoIterator<Item = T>) {
         for value in values {
-            // A fraction of the time of the standard library's formatting, which
-            // is what a state file of many bodies is made of.
+            // Formatting takes most of the time of a state file, and `ryu` is
+            // several times as fast as the standard library.
             let mut digits = ryu::Buffer::new();
             match T::NAME {
                 "f32" => self.fields.push_field(digits.format(value.to_f64() as f32).as_bytes()),
@@ -60,7 +51,7 @@ impl Row {
         }
     }
 
-    /// Writes the row and starts the next one.
+    /// Writes the line and starts the next one.
     fn finish<W: io::Write>(&mut self, writer: &mut csv::Writer<W>) -> io::Result<()> {
         writer.write_byte_record(&self.fields).map_err(as_io)?;
         self.fields.clear();

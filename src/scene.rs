@@ -27,28 +27,36 @@
 
 mod arrangement;
 mod builder;
+#[cfg(feature = "files")]
 mod builtin;
 mod check;
 mod check_bodies;
 mod checked;
 mod description;
+#[cfg(feature = "files")]
 mod dilated;
 mod error;
 mod figures;
+#[cfg(feature = "files")]
 mod file;
 mod filling;
 mod generate;
+#[cfg(feature = "files")]
+mod lines;
 mod obstacles;
 mod origin;
 mod random;
+#[cfg(feature = "files")]
 mod raw;
 mod settings;
 mod spheres;
 
 pub use builder::SceneBuilder;
+#[cfg(feature = "files")]
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use checked::Scene;
 pub use error::{Place, Problem, SceneError};
+#[cfg(feature = "files")]
 pub use file::SceneFile;
 pub use settings::{
     Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS, OrientationUpdate, Precision,

@@ -41,6 +41,7 @@ pub mod precision;
 pub mod scaling;
 pub mod stability;
 mod subject;
+pub mod table;
 pub mod work_precision;
 
 pub use course::Course;

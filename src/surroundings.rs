@@ -10,6 +10,9 @@
 //! entry of the list below. The scene file, the checks, the placement of spheres
 //! and both engines know shapes through these traits only.
 
+// Keys of shapes stand beside the shapes, and only scene files read them.
+#![cfg_attr(not(feature = "files"), allow(dead_code))]
+
 mod cuboid;
 mod entry;
 mod fixed_sphere;
@@ -19,6 +22,7 @@ mod parts;
 mod plane;
 mod solid;
 
+#[cfg(feature = "files")]
 pub(crate) use entry::{Key, Meaning, NO_VECTOR, ShapeEntry, Value};
 pub(crate) use mistake::{Mistake, corners, finite, is_positive, positive};
 pub(crate) use solid::ShapeKind;

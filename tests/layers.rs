@@ -82,11 +82,12 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 19] = [
+const SCENE: [&str; 20] = [
     "settings",
     "spheres",
     "random",
     "error",
+    "lines",
     "origin",
     "description",
     "check",

@@ -1,8 +1,8 @@
 //! Every kernel in every lane width and both precisions.
 //!
 //! ```text
-//! cargo bench --bench kernels
-//! cargo bench --bench kernels -- 'flight.*f32'
+//! cargo bench --manifest-path benches/Cargo.toml --bench kernels
+//! cargo bench --manifest-path benches/Cargo.toml --bench kernels -- 'flight.*f32'
 //! ```
 //!
 //! A group is one kernel in one precision. Its members are the lane widths that

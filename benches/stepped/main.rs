@@ -1,8 +1,8 @@
 //! The stepped engine as a whole, and what a scene saves that lacks something.
 //!
 //! ```text
-//! cargo bench --bench stepped
-//! cargo bench --bench stepped -- 'gas/smooth/f32'
+//! cargo bench --manifest-path benches/Cargo.toml --bench stepped
+//! cargo bench --manifest-path benches/Cargo.toml --bench stepped -- 'gas/smooth/f32'
 //! ```
 //!
 //! Elements are steps of one body: 40 Melem/s are 25 ns per body and step.

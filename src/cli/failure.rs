@@ -3,11 +3,12 @@
 use std::io;
 
 use carom::engine::EngineError;
-use carom::output::OutputError;
 use carom::scene::EngineKind;
 use carom::scene::SceneError;
 use carom::study::StudyError;
 use thiserror::Error;
+
+use super::output_file::OutputError;
 
 /// Why the program ends early. Its text is the one message.
 #[derive(Debug, Error)]
@@ -61,7 +62,7 @@ impl Failure {
                 StudyError::Scene(_)
                 | StudyError::Asked(_)
                 | StudyError::AnotherStudy(_)
-                | StudyError::Output(OutputError::Path { .. }) => 2,
+                | StudyError::NoFolder { .. } => 2,
                 _ => 1,
             },
             Self::Engine(_) | Self::Write(_) | Self::Print(_) | Self::NotFinite { .. } => 1,

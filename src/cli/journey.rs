@@ -8,11 +8,12 @@ use std::time::Instant;
 use carom::contact::Surface;
 use carom::engine::{EngineError, Event, World};
 use carom::observe::Temperature;
-use carom::output::{EventWriter, OutputError, OutputFile};
+use carom::output::EventWriter;
 use carom::real::Real;
 use carom::study::Course;
 
 use super::failure::Failure;
+use super::output_file::{OutputError, OutputFile};
 use super::progress::Progress;
 
 /// How long the engine runs between two looks at the clock.

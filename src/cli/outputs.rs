@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use carom::output::{Destination, OutputError, OutputFile};
-
 use super::arguments::RunArguments;
 use super::failure::Failure;
 use super::interrupt::remove_on_interrupt;
+use super::output_file::{Destination, OutputError, OutputFile};
 
 /// The files of a run.
 pub struct Outputs {

@@ -5,16 +5,18 @@ use std::io::{self, Write};
 use carom::bodies::Bodies;
 use carom::engine::{Compiled, World};
 use carom::observe::{Temperature, Totals, state_hash};
-use carom::output::{OutputFile, Setup, Summary, Work, write_state};
+use carom::output::write_state;
 use carom::real::Real;
 use carom::scene::{Precision, SceneFile};
 
 use super::arguments::RunArguments;
 use super::failure::Failure;
 use super::journey::Journey;
+use super::output_file::OutputFile;
 use super::outputs::Outputs;
 use super::print;
 use super::scene_argument::scene_file;
+use super::summary::{Setup, Summary, Work};
 
 /// Runs a scene and prints its summary.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 use super::law::Laws;
@@ -14,8 +15,9 @@ use super::law::Laws;
 /// assert_eq!(Surface::default(), Surface::Smooth);
 /// assert_eq!(Surface::Rough.to_string(), "rough");
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Surface {
     /// [`Smooth`](super::Smooth): a collision pushes along the normal only, and

@@ -5,6 +5,7 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 use crate::lane::Lane;
@@ -16,8 +17,9 @@ use crate::vec3::Vec3;
 /// use carom::Integrator;
 /// assert_eq!(Integrator::VelocityVerlet.to_string(), "velocity Verlet");
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Integrator {
     /// [`SemiImplicitEuler`]: each step loses `Δt²|a|²m/2` of energy.

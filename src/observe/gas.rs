@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::Serialize;
 
 use crate::bodies::Bodies;
@@ -22,7 +23,8 @@ use crate::vec3::Vec3;
 /// assert_eq!((temperature.translational, temperature.rotational), (6.0, 0.0));
 /// # Ok::<(), carom::bodies::BodiesError>(())
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "files", derive(Serialize))]
 pub struct Temperature {
     /// Of the centres, `kT = (2 E_trans − P²/M) / 3(N − 1)`: of their motion
     /// relative to the mean velocity. Without total momentum this is

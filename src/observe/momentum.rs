@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
 use serde::{Serialize, Serializer};
 
 use crate::bodies::Bodies;
@@ -79,6 +80,7 @@ macro_rules! shown_as_vector {
             }
         }
 
+        #[cfg(feature = "files")]
         impl Serialize for $type {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 self.0.to_array().serialize(serializer)

@@ -3,7 +3,7 @@
 use std::io;
 
 use crate::engine::{Event, Partner};
-use crate::output::{Row, as_io, csv_writer};
+use crate::output::{CsvLine, as_io, csv_writer};
 use crate::real::Real;
 
 /// The columns of an events file.
@@ -43,11 +43,11 @@ pub const EVENT_COLUMNS: [&str; 26] = [
 ];
 
 /// Writes collisions as comma-separated values under [`EVENT_COLUMNS`], in the
-/// order in which it is told of them.
+/// order in which they come.
 #[derive(Debug)]
 pub struct EventWriter<W: io::Write> {
     writer: csv::Writer<W>,
-    row: Row,
+    line: CsvLine,
     failure: Option<io::Error>,
 }
 
@@ -59,7 +59,7 @@ impl<W: io::Write> EventWriter<W> {
     pub fn new(output: W) -> io::Result<Self> {
         let mut writer = csv_writer(output);
         writer.write_record(EVENT_COLUMNS).map_err(as_io)?;
-        Ok(Self { writer, row: Row::default(), failure: None })
+        Ok(Self { writer, line: CsvLine::default(), failure: None })
     }
 
     /// Writes one collision. An engine cannot be stopped in the middle of a
@@ -72,33 +72,33 @@ impl<W: io::Write> EventWriter<W> {
     }
 
     fn write<T: Real>(&mut self, event: &Event<T>) -> io::Result<()> {
-        let row = &mut self.row;
-        row.numbers([event.time]);
-        row.shown(event.a);
+        let line = &mut self.line;
+        line.numbers([event.time]);
+        line.shown(event.a);
         match event.partner {
             Partner::Body { index, .. } => {
-                row.shown(index);
-                row.empty(1);
+                line.shown(index);
+                line.empty(1);
             }
             Partner::Surroundings(index) => {
-                row.empty(1);
-                row.shown(index);
+                line.empty(1);
+                line.shown(index);
             }
         }
-        row.numbers(event.point.to_array());
-        row.numbers(event.normal.to_array());
-        row.numbers([event.normal_impulse]);
-        row.numbers(event.tangential_impulse.to_array());
-        row.numbers(event.velocity.to_array());
-        row.numbers(event.spin.to_array());
+        line.numbers(event.point.to_array());
+        line.numbers(event.normal.to_array());
+        line.numbers([event.normal_impulse]);
+        line.numbers(event.tangential_impulse.to_array());
+        line.numbers(event.velocity.to_array());
+        line.numbers(event.spin.to_array());
         match event.partner {
             Partner::Body { velocity, spin, .. } => {
-                row.numbers(velocity.to_array());
-                row.numbers(spin.to_array());
+                line.numbers(velocity.to_array());
+                line.numbers(spin.to_array());
             }
-            Partner::Surroundings(_) => row.empty(6),
+            Partner::Surroundings(_) => line.empty(6),
         }
-        row.finish(&mut self.writer)
+        line.finish(&mut self.writer)
     }
 
     /// Reports a failure to write any of the collisions so far.
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_failure_is_kept_until_somebody_checks() {
+    fn a_failure_is_kept_until_it_is_checked() {
         struct Full;
         impl io::Write for Full {
             fn write(&mut self, _: &[u8]) -> io::Result<usize> {

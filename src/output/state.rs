@@ -3,7 +3,7 @@
 use std::io;
 
 use crate::bodies::Bodies;
-use crate::output::{Row, as_io, csv_writer};
+use crate::output::{CsvLine, as_io, csv_writer};
 use crate::real::Real;
 
 /// The columns of a state file: number of the body, centre, velocity, angular
@@ -35,15 +35,15 @@ pub const STATE_COLUMNS: [&str; 21] = [
 pub fn write_state<T: Real, W: io::Write>(output: W, bodies: &Bodies<T>) -> io::Result<()> {
     let mut writer = csv_writer(output);
     writer.write_record(STATE_COLUMNS).map_err(as_io)?;
-    let mut row = Row::default();
+    let mut line = CsvLine::default();
     for index in 0..bodies.len() {
-        row.shown(index);
-        row.numbers(bodies.position_of(index).to_array());
-        row.numbers(bodies.velocity_of(index).to_array());
-        row.numbers(bodies.spin_of(index).to_array());
-        row.numbers(bodies.orientation_of(index).rows());
-        row.numbers([bodies.radius.of(index), bodies.mass.of(index)]);
-        row.finish(&mut writer)?;
+        line.shown(index);
+        line.numbers(bodies.position_of(index).to_array());
+        line.numbers(bodies.velocity_of(index).to_array());
+        line.numbers(bodies.spin_of(index).to_array());
+        line.numbers(bodies.orientation_of(index).rows());
+        line.numbers([bodies.radius.of(index), bodies.mass.of(index)]);
+        line.finish(&mut writer)?;
     }
     writer.flush()
 }

@@ -49,6 +49,7 @@ impl<T: Real> GivenShape<T> {
     }
 
     /// A shape in `f64`.
+    #[cfg(feature = "files")]
     pub(super) fn exact(exact: Shape<f64>) -> Self {
         Self { rounded: exact.cast(), exact }
     }

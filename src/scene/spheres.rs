@@ -2,6 +2,7 @@
 
 use core::ops::RangeInclusive;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 /// A figure that all spheres of a group share, or that is spread evenly
@@ -52,8 +53,9 @@ impl From<RangeInclusive<f64>> for Spread {
 }
 
 /// How many spheres are laid out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Arrangement {
     /// A face-centred cubic lattice, the densest there is.
     Fcc,

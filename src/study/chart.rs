@@ -225,14 +225,14 @@ impl Chart {
             .draw()?;
         for series in &self.series {
             let color = series.color();
-            let places: Vec<(f64, f64)> = series
+            let pixels: Vec<(f64, f64)> = series
                 .points
                 .iter()
-                .filter_map(|(x, y)| self.x.place(*x).zip(self.y.place(*y)))
+                .filter_map(|(x, y)| self.x.coordinate(*x).zip(self.y.coordinate(*y)))
                 .collect();
             let stroke = color.stroke_width(2);
             let mark = series.mark;
-            let line = places.iter().copied();
+            let line = pixels.iter().copied();
             match mark {
                 Mark::Line | Mark::LineAndDiscs => {
                     chart.draw_series(LineSeries::new(line, stroke))?
@@ -243,7 +243,7 @@ impl Chart {
                 Mark::Rings => chart.draw_series(line.map(|p| Circle::new(p, 8, stroke)))?,
             };
             if matches!(mark, Mark::LineAndDiscs | Mark::DashesAndDiscs) {
-                let discs = places.iter().map(|&place| Circle::new(place, 3, color.filled()));
+                let discs = pixels.iter().map(|&pixel| Circle::new(pixel, 3, color.filled()));
                 chart.draw_series(discs)?;
             }
         }

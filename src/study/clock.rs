@@ -85,8 +85,8 @@ pub fn seconds<R>(work: impl FnOnce() -> R) -> (R, f64) {
 pub fn rounds(variants: &mut [Variant<'_>], rounds: usize) -> Result<Vec<Timing>, StudyError> {
     let mut runs = vec![Vec::with_capacity(rounds.min(1 << 10)); variants.len()];
     for round in 0..rounds {
-        for turn in 0..variants.len() {
-            let k = if round % 2 == 0 { turn } else { variants.len() - 1 - turn };
+        for nth in 0..variants.len() {
+            let k = if round % 2 == 0 { nth } else { variants.len() - 1 - nth };
             runs[k].push(variants[k]()?);
         }
     }

@@ -4,7 +4,6 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::engine::EngineError;
-use crate::output::OutputError;
 use crate::scene::SceneError;
 
 /// Why a study ends early.
@@ -37,9 +36,14 @@ pub enum StudyError {
     /// Lanes or threads, which change no bit of a result, have changed some.
     #[error("{0}: this is a mistake in carom, please report it with the scene and the machine")]
     DifferentBits(String),
-    /// A result could not be written to its end.
-    #[error(transparent)]
-    Output(#[from] OutputError),
+    /// There can be no folder at the path.
+    #[error("{} cannot be written: {reason}", path.display())]
+    NoFolder {
+        /// The path as it was given.
+        path: PathBuf,
+        /// Why, and what would be right.
+        reason: String,
+    },
     /// A picture could not be drawn.
     #[error("{} could not be drawn: {reason}", path.display())]
     Picture {

@@ -1,13 +1,12 @@
 //! Folder: where a study keeps its results.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
 use super::{Journal, StudyError};
-use crate::output::{OutputError, OutputFile};
 
 /// The file with the results of single points.
 const JOURNAL: &str = "points.jsonl";
@@ -24,14 +23,14 @@ impl Folder {
     /// # Errors
     /// If it cannot be made.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
-        let refused = |reason: String| OutputError::Path { path: path.into(), reason };
+        let refused = |reason: String| StudyError::NoFolder { path: path.into(), reason };
         match fs::create_dir(path) {
             Ok(()) => {}
             Err(_) if path.is_dir() => {}
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                return Err(refused("it is a file; give the path of a folder".to_owned()).into());
+                return Err(refused("it is a file; give the path of a folder".to_owned()));
             }
-            Err(error) => return Err(refused(error.to_string()).into()),
+            Err(error) => return Err(refused(error.to_string())),
         }
         Ok(Self { path: path.into() })
     }
@@ -100,9 +99,15 @@ impl Folder {
     }
 }
 
-/// Writes a whole file, or none.
+/// Writes a whole file, or none: under another name first, so that nothing half
+/// written ever has its own.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    let mut file = OutputFile::open(path)?;
-    file.write_all(bytes).map_err(|error| file.error(error))?;
-    Ok(file.finish()?)
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(".tmp");
+    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
+    written.map_err(|source| {
+        // The file that stays is not worth a second message.
+        let _ = fs::remove_file(&beside);
+        StudyError::File { path: path.into(), source }
+    })
 }

@@ -27,8 +27,8 @@ mod verdict;
 
 use serde::{Deserialize, Serialize};
 
-pub use divergence::Place;
-pub use report::{PrecisionReport, Row};
+pub use divergence::RunPoint;
+pub use report::{PrecisionReport, SeriesRow};
 pub use side_by_side::{Comparison, SideBySide};
 
 use super::{Journal, Order, Point, StudyError, Subject, Watch};
@@ -143,10 +143,10 @@ impl PrecisionStudy {
         }
         let outcomes = Point::all(&points, journal, Order::AtOnce, watch)?;
         let (mut side_by_side, mut tracks) = (None, [Vec::new(), Vec::new()]);
-        for (place, outcome) in outcomes.into_iter().enumerate() {
+        for (index, outcome) in outcomes.into_iter().enumerate() {
             match outcome {
                 Outcome::SideBySide(found) => side_by_side = Some(*found),
-                Outcome::Run(track) => tracks[(place + 1) % 2].push(track),
+                Outcome::Run(track) => tracks[(index + 1) % 2].push(track),
             }
         }
         let side_by_side = side_by_side

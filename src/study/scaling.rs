@@ -31,8 +31,8 @@ use super::{Journal, Machine, Order, Point, StudyError, Subject, Watch};
 use crate::scene::EngineKind;
 use crate::scene::{Precision, SceneFile};
 
-pub use measure::Row;
-pub use report::{Power, Report, SpeedUp};
+pub use measure::Measurement;
+pub use report::{Power, ScalingReport, SpeedUp};
 pub use settings::Settings;
 
 use measure::{Measured, Task};
@@ -92,7 +92,11 @@ impl Scaling {
     /// # Errors
     /// If a scene of some size cannot be built or run, its collisions run out, or
     /// the journal cannot be written.
-    pub fn measure(&self, journal: &Journal, watch: &dyn Watch) -> Result<Report, StudyError> {
+    pub fn measure(
+        &self,
+        journal: &Journal,
+        watch: &dyn Watch,
+    ) -> Result<ScalingReport, StudyError> {
         let sizes = self.settings.bodies.len();
         // From the smallest to the largest: what earlier points leave in the
         // allocator's hands is little beside what a later one takes.
@@ -120,7 +124,7 @@ impl Scaling {
             })
             .collect();
         let measured = Point::all(&points, journal, Order::OneByOne, watch)?;
-        Ok(Report::of(self, measured))
+        Ok(ScalingReport::of(self, measured))
     }
 
     /// What is to be done at a size.

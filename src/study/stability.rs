@@ -37,7 +37,7 @@ use super::{Journal, Machine, Order, Point, StudyError, Watch, chart};
 
 pub use case::{Case, Curve, Extent, Findings};
 pub use figure::{Figure, Verdict};
-pub use report::{Report, Section};
+pub use report::{Section, StabilityReport};
 
 /// All cases.
 #[must_use]
@@ -85,7 +85,7 @@ pub fn study(
     extent: Extent,
     journal: &Journal,
     watch: &dyn Watch,
-) -> Result<Report, StudyError> {
+) -> Result<StabilityReport, StudyError> {
     let mut points = Vec::new();
     let mut counts = Vec::new();
     for case in cases {
@@ -100,5 +100,5 @@ pub fn study(
     let sections = cases.iter().zip(counts).map(|(case, count)| {
         Section::new(case, (case.combine)(findings.by_ref().take(count).collect()))
     });
-    Ok(Report { machine: Machine::here(), extent, cases: sections.collect() })
+    Ok(StabilityReport { machine: Machine::here(), extent, cases: sections.collect() })
 }

@@ -34,7 +34,7 @@ pub use conclusions::{Found, Judged, Order, Theory};
 pub use measure::{Moment, Outcome};
 pub use method::{Family, Method, Stepping};
 pub use quantity::Quantity;
-pub use report::Report;
+pub use report::WorkPrecisionReport;
 pub use sweep::{Asked, Sweep};
 
 /// The most numbers that reference states may have together: 4 GiB.
@@ -129,7 +129,7 @@ impl WorkPrecision {
         journal: &Journal,
         quantity: Quantity,
         watch: &dyn Watch,
-    ) -> Result<Report, StudyError> {
+    ) -> Result<WorkPrecisionReport, StudyError> {
         let Self { file, sweep, .. } = self;
         let end = sweep.times.last().copied().unwrap_or(0.0);
         let keys: Vec<String> = sweep.methods.iter().map(Method::key).collect();
@@ -155,6 +155,6 @@ impl WorkPrecision {
         };
         let points: Vec<_> = sweep.methods.iter().zip(&keys).zip(&seconds).map(point).collect();
         let outcomes = Point::all(&points, journal, Turn::OneByOne, watch)?;
-        Ok(Report::new(file, sweep, &self.scale, self.motion, outcomes, quantity))
+        Ok(WorkPrecisionReport::new(file, sweep, &self.scale, self.motion, outcomes, quantity))
     }
 }

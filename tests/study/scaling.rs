@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use carom::engine::Lanes;
 use carom::scene::EngineKind;
 use carom::scene::{Precision, SceneFile};
-use carom::study::scaling::{Report, Scaling, Settings};
+use carom::study::scaling::{Scaling, ScalingReport, Settings};
 use carom::study::{Folder, Journal, StudyError, Watch};
 
 /// What has been done.
@@ -39,7 +39,7 @@ fn tiny() -> Settings {
     }
 }
 
-fn report(engine: EngineKind, settings: &Settings) -> Report {
+fn report(engine: EngineKind, settings: &Settings) -> ScalingReport {
     let study = Scaling::new(&fluid(engine), settings).unwrap();
     study.measure(&Journal::unwritten(), &()).unwrap()
 }

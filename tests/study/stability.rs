@@ -5,7 +5,9 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use carom::scene::Precision;
-use carom::study::stability::{Case, Extent, Figure, Report, Section, Verdict, cases, study};
+use carom::study::stability::{
+    Case, Extent, Figure, Section, StabilityReport, Verdict, cases, study,
+};
 use carom::study::{Folder, Journal, StudyError, Watch};
 
 fn named(names: &[&str]) -> Vec<&'static Case> {
@@ -34,7 +36,7 @@ fn laws_hold() {
 }
 
 /// The files hold all figures, and the pictures are there.
-fn written(report: &Report) {
+fn written(report: &StabilityReport) {
     let folder = tempfile::tempdir().unwrap();
     report.write(&Folder::open(folder.path()).unwrap()).unwrap();
     let json = fs::read_to_string(folder.path().join("stability.json")).unwrap();
@@ -110,7 +112,7 @@ fn goes_on_from_its_journal() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("points.jsonl");
     let cases = named(&["superball", "cradle"]);
-    let run = |watch: &Count| -> Result<Report, StudyError> {
+    let run = |watch: &Count| -> Result<StabilityReport, StudyError> {
         study(&cases, Extent::Quick, &Journal::open(&path, &Extent::Quick)?, watch)
     };
     let all = Count::default();

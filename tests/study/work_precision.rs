@@ -5,7 +5,9 @@ use carom::engine::Lanes;
 use carom::motion::Integrator;
 use carom::scene::Impact;
 use carom::scene::{Precision, SceneFile};
-use carom::study::work_precision::{Asked, Family, Found, Quantity, Report, Theory, WorkPrecision};
+use carom::study::work_precision::{
+    Asked, Family, Found, Quantity, Theory, WorkPrecision, WorkPrecisionReport,
+};
 use carom::study::{Folder, Journal};
 
 use super::scene;
@@ -72,13 +74,13 @@ fn quick() -> Asked {
     Asked { lanes: vec![Lanes::Auto, Lanes::Scalar], runs: Some(1), ..Asked::default() }
 }
 
-fn study(file: &SceneFile, asked: &Asked) -> Report {
+fn study(file: &SceneFile, asked: &Asked) -> WorkPrecisionReport {
     let study = WorkPrecision::new(file, asked).unwrap();
     study.measure(&Journal::unwritten(), Quantity::Position, &()).unwrap()
 }
 
 /// What was found of a quantity in `f64`, by the family's name.
-fn found(report: &Report, quantity: Quantity) -> Vec<(String, Theory, Found)> {
+fn found(report: &WorkPrecisionReport, quantity: Quantity) -> Vec<(String, Theory, Found)> {
     let (_, orders) = report.orders.iter().find(|(of, _)| *of == quantity).unwrap();
     let fine = orders.iter().filter(|order| order.family.precision == Precision::F64);
     fine.map(|order| (order.family.to_string(), order.theory, order.found)).collect()

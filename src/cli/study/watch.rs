@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use carom::study::{Folder, Watch};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
-/// From so many seconds on it is said beforehand how long a study takes.
+/// Seconds from which the length of a study is announced.
 const LONG: f64 = 10.0;
 
 /// What a shell reports for a program ended by Ctrl-C.
@@ -22,7 +22,7 @@ impl Teller {
     /// For a study whose points go into this folder.
     pub fn new(folder: &Folder) -> Self {
         let path = folder.path().display().to_string();
-        // Without a handler the points are kept too; only nobody is told.
+        // Without a handler the points are kept too, without the message.
         let _ = ctrlc::set_handler(move || {
             eprintln!("\ninterrupted; the finished points are in {path}: start again to go on");
             std::process::exit(INTERRUPTED);
@@ -33,8 +33,8 @@ impl Teller {
 
 impl Watch for Teller {
     fn says(&self, what: &str) {
-        if let (true, Ok(mut place)) = (io::stderr().is_terminal(), self.bar.lock()) {
-            let bar = place.get_or_insert_with(ProgressBar::new_spinner);
+        if let (true, Ok(mut shown)) = (io::stderr().is_terminal(), self.bar.lock()) {
+            let bar = shown.get_or_insert_with(ProgressBar::new_spinner);
             bar.set_message(what.to_owned());
             bar.enable_steady_tick(Duration::from_millis(200));
         }
@@ -61,16 +61,16 @@ impl Watch for Teller {
         }
         bar.set_message(about(seconds));
         bar.enable_steady_tick(Duration::from_millis(200));
-        if let Ok(mut place) = self.bar.lock()
-            && let Some(before) = place.replace(bar)
+        if let Ok(mut shown) = self.bar.lock()
+            && let Some(before) = shown.replace(bar)
         {
             before.finish_and_clear();
         }
     }
 
     fn is_done(&self, key: &str, seconds_left: f64) {
-        let Ok(place) = self.bar.lock() else { return };
-        let Some(bar) = &*place else { return };
+        let Ok(shown) = self.bar.lock() else { return };
+        let Some(bar) = &*shown else { return };
         bar.inc(1);
         bar.set_message(format!("{} left; done: {key}", about(seconds_left)));
     }

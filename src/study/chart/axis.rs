@@ -33,19 +33,19 @@ impl Axis {
     }
 
     /// Where a value is: the axis itself is linear in it.
-    pub(super) fn place(&self, value: f64) -> Option<f64> {
-        let place = match self.scale {
+    pub(super) fn coordinate(&self, value: f64) -> Option<f64> {
+        let coordinate = match self.scale {
             Scale::Linear => value,
             Scale::Logarithmic if value > 0.0 => value.log10(),
             Scale::Logarithmic => return None,
         };
-        place.is_finite().then_some(place)
+        coordinate.is_finite().then_some(coordinate)
     }
 
     /// From where to where the values reach, with a margin.
     fn range(&self, values: impl Iterator<Item = f64>) -> Range<f64> {
         let (least, greatest) = values
-            .filter_map(|value| self.place(value))
+            .filter_map(|value| self.coordinate(value))
             .fold((f64::MAX, f64::MIN), |(least, greatest), v| (least.min(v), greatest.max(v)));
         if least > greatest {
             return 0.0..1.0;
@@ -106,10 +106,10 @@ impl Ranged for Divided {
 }
 
 impl ValueFormatter<f64> for Divided {
-    fn format_ext(&self, place: &f64) -> String {
+    fn format_ext(&self, coordinate: &f64) -> String {
         match self.scale {
-            Scale::Linear => short(*place),
-            Scale::Logarithmic => short(10.0_f64.powf(*place)),
+            Scale::Linear => short(*coordinate),
+            Scale::Logarithmic => short(10.0_f64.powf(*coordinate)),
         }
     }
 }

@@ -99,8 +99,8 @@ fn figures(side_by_side: &SideBySide) -> Vec<Figure<'_>> {
         "translational temperature",
         Box::new(|samples| mean_over(samples, |sample| sample.translational)),
     ));
-    let turns = |sample: &Sample| sample.rotational.is_some_and(|kt| kt > 0.0);
-    if side_by_side.truth.samples.iter().any(turns) {
+    let spins = |sample: &Sample| sample.rotational.is_some_and(|kt| kt > 0.0);
+    if side_by_side.truth.samples.iter().any(spins) {
         figures.push((
             "rotational temperature",
             Box::new(|samples| mean_over(samples, |sample| sample.rotational)),

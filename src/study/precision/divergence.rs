@@ -12,7 +12,7 @@ use crate::study::fit::{Estimate, Line};
 
 /// A point of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct RunPoint {
     /// Time since the start.
     pub time: f64,
     /// Collisions per body up to it.
@@ -51,9 +51,9 @@ pub struct Divergence {
     /// How the distance grows; `None` where there are too few points.
     pub growth: Option<Growth>,
     /// Where it is lost, if it is seen to be.
-    pub lost: Option<Place>,
+    pub lost: Option<RunPoint>,
     /// Where it would be by the law of its growth, if it is not.
-    pub would_be_lost: Option<Place>,
+    pub would_be_lost: Option<RunPoint>,
     /// The distance at the end, length.
     pub at_end: Option<f64>,
     /// The first collisions that are others.
@@ -142,18 +142,18 @@ impl Divergence {
     ) -> Self {
         let collisions = side_by_side.collisions_per_body();
         let samples = &side_by_side.truth.samples;
-        let places = samples.iter().zip(&collisions).zip(&comparison.distance);
-        let points: Vec<(Place, f64)> = places
+        let reached = samples.iter().zip(&collisions).zip(&comparison.distance);
+        let points: Vec<(RunPoint, f64)> = reached
             .map(|((sample, &collisions_per_body), distance)| {
                 // What is no number is as far away as can be.
                 let distance = distance.unwrap_or(f64::MAX);
-                (Place { time: sample.time, collisions_per_body }, distance)
+                (RunPoint { time: sample.time, collisions_per_body }, distance)
             })
             .collect();
         let partner = comparison.departures.partner;
         let plain: Vec<(f64, f64)> = points
             .iter()
-            .map(|(place, distance)| (place.collisions_per_body, *distance))
+            .map(|(point, distance)| (point.collisions_per_body, *distance))
             .take_while(|point| partner.is_none_or(|other| point.0 < other.collisions_per_body))
             .collect();
         let growth = Growth::of(&plain, threshold);
@@ -163,7 +163,7 @@ impl Divergence {
                 .reaches(threshold, (end.collisions_per_body, distance))
                 .map(|collisions_per_body| {
                     let time = end.time * collisions_per_body / end.collisions_per_body;
-                    Place { time, collisions_per_body }
+                    RunPoint { time, collisions_per_body }
                 }),
             _ => None,
         };
@@ -181,7 +181,7 @@ impl Divergence {
 
 /// Where a distance first goes through the threshold; between two points it
 /// grows by equal factors.
-fn crossing(points: &[(Place, f64)], threshold: f64) -> Option<Place> {
+fn crossing(points: &[(RunPoint, f64)], threshold: f64) -> Option<RunPoint> {
     let after = points.iter().position(|&(_, distance)| distance > threshold)?;
     let (end, above) = points[after];
     let Some(&(start, below)) = after.checked_sub(1).and_then(|before| points.get(before)) else {
@@ -190,7 +190,7 @@ fn crossing(points: &[(Place, f64)], threshold: f64) -> Option<Place> {
     let share = (threshold / below).ln() / (above / below).ln();
     let share = if share.is_finite() { share } else { 1.0 };
     let between = |start: f64, end: f64| start + share * (end - start);
-    Some(Place {
+    Some(RunPoint {
         time: between(start.time, end.time),
         collisions_per_body: between(start.collisions_per_body, end.collisions_per_body),
     })
@@ -199,7 +199,11 @@ fn crossing(points: &[(Place, f64)], threshold: f64) -> Option<Place> {
 /// Where even the double-double is lost: an error that starts as many times
 /// smaller than one in `f64` or `f32` as its ε is, and grows as that one does.
 #[must_use]
-pub fn reference_lost(divergences: &[Divergence; 2], threshold: f64, end: Place) -> Option<Place> {
+pub fn reference_lost(
+    divergences: &[Divergence; 2],
+    threshold: f64,
+    end: RunPoint,
+) -> Option<RunPoint> {
     let epsilons = [Precision::F32, Precision::F64].map(Precision::epsilon);
     let mut found = divergences.iter().zip(epsilons).rev().filter_map(|(divergence, epsilon)| {
         let growth = divergence.growth.filter(|growth| growth.power.is_none())?;
@@ -207,7 +211,7 @@ pub fn reference_lost(divergences: &[Divergence; 2], threshold: f64, end: Place)
         let collisions_per_body = (threshold.ln() - growth.intercept - smaller) / growth.rate.value;
         (growth.rate.value > 0.0 && collisions_per_body.is_finite()).then(|| {
             let time = end.time * collisions_per_body / end.collisions_per_body;
-            Place { time, collisions_per_body }
+            RunPoint { time, collisions_per_body }
         })
     });
     found.next()

@@ -60,7 +60,7 @@ pub struct Drift {
     pub law: Law,
 }
 
-/// What a scene conserves: the names, and places among the samples' figures.
+/// What a scene conserves: the names, and indices among the samples' figures.
 /// The double-double tells whether the method does: what it does not conserve to
 /// twenty digits, is no matter of precision.
 #[must_use]
@@ -161,13 +161,13 @@ impl Drift {
 /// Which of so many points in time an exponent is fitted to.
 fn fitted(len: usize) -> Vec<usize> {
     let last = len.saturating_sub(1) as f64;
-    let places = core::iter::successors(Some(last), |place| Some(place / APART));
-    let mut places: Vec<usize> = places
-        .take_while(|&place| place >= 1.0 && place * SPAN >= last)
-        .map(|place| place.round() as usize)
+    let indices = core::iter::successors(Some(last), |index| Some(index / APART));
+    let mut indices: Vec<usize> = indices
+        .take_while(|&index| index >= 1.0 && index * SPAN >= last)
+        .map(|index| index.round() as usize)
         .collect();
-    places.dedup();
-    places
+    indices.dedup();
+    indices
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Files: what the study leaves in its folder.
 
 use super::report::PrecisionReport;
-use super::{PRECISIONS, Place};
+use super::{PRECISIONS, RunPoint};
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use crate::study::{Folder, StudyError};
 
@@ -24,14 +24,15 @@ impl PrecisionReport {
 
     fn divergence_chart(&self) -> Chart {
         let has_collisions = self.end.collisions_per_body > 0.0;
-        let at = |place: Place| if has_collisions { place.collisions_per_body } else { place.time };
+        let at =
+            |point: RunPoint| if has_collisions { point.collisions_per_body } else { point.time };
         let mut series = Vec::new();
         for (k, divergence) in self.divergences.iter().enumerate() {
             let points = self.series.iter().filter_map(|row| {
-                let Place { time, collisions_per_body } =
-                    Place { time: row.time, collisions_per_body: row.collisions_per_body };
+                let RunPoint { time, collisions_per_body } =
+                    RunPoint { time: row.time, collisions_per_body: row.collisions_per_body };
                 let distance = [row.f32_distance, row.f64_distance][k]?;
-                Some((at(Place { time, collisions_per_body }), distance))
+                Some((at(RunPoint { time, collisions_per_body }), distance))
             });
             series.push(Series {
                 name: PRECISIONS[k].to_owned(),

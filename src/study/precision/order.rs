@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::engine::{Event, Partner};
 use crate::real::Real;
 
-/// A collision, as far as its place in the order goes.
+/// A collision, as far as its position in the order goes.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     /// When.
@@ -30,7 +30,7 @@ pub enum Met {
 /// A collision that is not the double-double's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Departure {
-    /// The double-double's collision in whose place it is, from 1.
+    /// The double-double's collision that should have been there instead, from 1.
     pub collision: u64,
     /// When that is.
     pub time: f64,
@@ -110,17 +110,18 @@ impl Comparer {
     /// run has not had by the end is missing there, and no longer only late.
     #[must_use]
     pub fn finish(mut self, before: f64) -> Departures {
-        let is_missing = |place: &&Departure| place.time < before;
-        let missing = self.ahead.front().map(|(_, place)| place).filter(is_missing).copied();
+        let is_missing = |departure: &&Departure| departure.time < before;
+        let missing =
+            self.ahead.front().map(|(_, departure)| departure).filter(is_missing).copied();
         let surplus = self.ahead_here.front().map(|seen| Departure {
             collision: self.counted.0 + 1,
             time: seen.time,
             collisions_per_body: self.counted.1 as f64 / self.bodies as f64,
         });
-        let ended = missing.or(surplus.filter(|place| is_missing(&place)));
+        let ended = missing.or(surplus.filter(|departure| is_missing(&departure)));
         self.found.order = self.found.order.or(ended);
         let of_each = self.of_each.iter().filter_map(|(should, _)| should.front());
-        let missing = of_each.map(|(_, place)| place).filter(is_missing);
+        let missing = of_each.map(|(_, departure)| departure).filter(is_missing);
         let first = missing.min_by(|a, b| a.time.total_cmp(&b.time)).copied();
         self.found.partner = self.found.partner.or(first).or(ended);
         self.found
@@ -135,14 +136,14 @@ impl Comparer {
         for seen in should {
             self.counted.0 += 1;
             self.counted.1 += seen.parties().count() as u64;
-            let place = Departure {
+            let departure = Departure {
                 collision: self.counted.0,
                 time: seen.time,
                 collisions_per_body: self.counted.1 as f64 / self.bodies as f64,
             };
-            self.ahead.push_back((*seen, place));
+            self.ahead.push_back((*seen, departure));
             for (body, met) in seen.parties() {
-                self.of_each[body as usize].0.push_back((met, place));
+                self.of_each[body as usize].0.push_back((met, departure));
             }
         }
         for seen in is {
@@ -157,10 +158,10 @@ impl Comparer {
 
     fn compare_order(&mut self) {
         while self.found.order.is_none() && !self.ahead_here.is_empty() {
-            let Some((should, place)) = self.ahead.pop_front() else { return };
+            let Some((should, departure)) = self.ahead.pop_front() else { return };
             let is = self.ahead_here.pop_front();
             if is.is_none_or(|is| (is.body, is.met) != (should.body, should.met)) {
-                self.found.order = Some(place);
+                self.found.order = Some(departure);
             }
         }
         if self.found.order.is_some() {
@@ -171,11 +172,11 @@ impl Comparer {
 
     fn compare_partners(&mut self) {
         for (should, is) in &mut self.of_each {
-            while let (Some(&(met, place)), Some(&found)) = (should.front(), is.front()) {
+            while let (Some(&(met, departure)), Some(&found)) = (should.front(), is.front()) {
                 if met != found {
-                    let earliest = self.found.partner.is_none_or(|old| place.time < old.time);
+                    let earliest = self.found.partner.is_none_or(|old| departure.time < old.time);
                     if earliest {
-                        self.found.partner = Some(place);
+                        self.found.partner = Some(departure);
                     }
                     break;
                 }
@@ -203,10 +204,12 @@ mod tests {
         comparer.compare(&should[..3], &is[..1]);
         comparer.compare(&should[3..], &is[1..]);
         let found = comparer.finish(0.0);
-        let at = |place: Option<Departure>| place.map(|place| (place.collision, place.time));
+        let at = |departure: Option<Departure>| {
+            departure.map(|departure| (departure.collision, departure.time))
+        };
         assert_eq!(at(found.order), Some((1, 1.0)));
         assert_eq!(at(found.partner), Some((4, 3.0)));
-        assert_eq!(found.order.map(|place| place.collisions_per_body), Some(0.5));
+        assert_eq!(found.order.map(|departure| departure.collisions_per_body), Some(0.5));
     }
 
     #[test]
@@ -222,8 +225,8 @@ mod tests {
             let mut comparer = Comparer::new(3);
             comparer.compare(should, is);
             let found = comparer.finish(before);
-            assert_eq!(found.order.map(|place| place.collision), missing);
-            assert_eq!(found.partner.map(|place| place.collision), missing);
+            assert_eq!(found.order.map(|departure| departure.collision), missing);
+            assert_eq!(found.partner.map(|departure| departure.collision), missing);
         }
     }
 }

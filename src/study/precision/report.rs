@@ -5,15 +5,15 @@ use core::fmt;
 use serde::Serialize;
 
 use super::averages::{Average, averages};
-use super::divergence::{Divergence, Place, Threshold, reference_lost};
+use super::divergence::{Divergence, RunPoint, Threshold, reference_lost};
 use super::drift::{Drift, invariants};
 use super::run::Track;
 use super::side_by_side::SideBySide;
 use super::{PRECISIONS, verdict};
-use crate::output::table::{Table, counted, rounded};
 use crate::real::Real;
 use crate::scene::EngineKind;
 use crate::study::fit::Estimate;
+use crate::study::table::{Table, counted, rounded};
 use crate::study::{Machine, Subject};
 
 /// Columns of the terminal.
@@ -36,14 +36,14 @@ pub struct PrecisionReport {
     /// Runs of each precision.
     pub runs: usize,
     /// The end of the double-double's run.
-    pub end: Place,
+    pub end: RunPoint,
     /// From where on trajectories are lost.
     pub threshold: Threshold,
     /// Of `f32` and `f64`.
     pub divergences: [Divergence; 2],
     /// Where even the double-double is lost, by the law of the others; behind it
     /// distances mean nothing.
-    pub reference_lost: Option<Place>,
+    pub reference_lost: Option<RunPoint>,
     /// Of every invariant, in `f32` and `f64`.
     pub drifts: Vec<Drift>,
     /// What averages lose.
@@ -51,12 +51,12 @@ pub struct PrecisionReport {
     /// What follows, in sentences.
     pub verdict: Vec<String>,
     /// At each time.
-    pub series: Vec<Row>,
+    pub series: Vec<SeriesRow>,
 }
 
 /// The runs at a time.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Row {
+pub struct SeriesRow {
     /// Time since the start.
     pub time: f64,
     /// Collisions per body so far.
@@ -97,7 +97,7 @@ impl PrecisionReport {
             )
         });
         let collisions = side_by_side.collisions_per_body();
-        let end = Place {
+        let end = RunPoint {
             time: side_by_side.truth.samples.last().map_or(0.0, |sample| sample.time),
             collisions_per_body: collisions.last().copied().unwrap_or(0.0),
         };
@@ -131,13 +131,13 @@ impl PrecisionReport {
         report
     }
 
-    /// Whether a place is behind where even the double-double is lost.
+    /// Whether a point of the run is behind where even the double-double is lost.
     fn is_behind(&self, collisions_per_body: f64) -> bool {
         self.reference_lost.is_some_and(|lost| collisions_per_body > lost.collisions_per_body)
     }
 }
 
-fn series(side_by_side: &SideBySide, collisions: &[f64]) -> Vec<Row> {
+fn series(side_by_side: &SideBySide, collisions: &[f64]) -> Vec<SeriesRow> {
     let row = |(k, &collisions_per_body): (usize, &f64)| {
         let time = side_by_side.truth.samples[k].time;
         let [single, double] = side_by_side.others.each_ref();
@@ -145,7 +145,7 @@ fn series(side_by_side: &SideBySide, collisions: &[f64]) -> Vec<Row> {
         let drift = |track: &Track, which: usize| {
             track.samples.get(k).and_then(|sample| sample.drift[which])
         };
-        Row {
+        SeriesRow {
             time,
             collisions_per_body,
             f32_distance: of(&single.distance),
@@ -215,8 +215,8 @@ impl PrecisionReport {
         if self.divergences.iter().any(|d| d.growth.is_some_and(|growth| growth.power.is_some())) {
             table.row("nearer to the points: p of δ ∝ c^p", each(&power));
         }
-        table.row("lost at time", each(&|d| lost(d, |place| place.time)));
-        table.row("  collisions per body", each(&|d| lost(d, |place| place.collisions_per_body)));
+        table.row("lost at time", each(&|d| lost(d, |point| point.time)));
+        table.row("  collisions per body", each(&|d| lost(d, |point| point.collisions_per_body)));
         table.row(
             "first collision out of order",
             each(&|d| {
@@ -351,10 +351,10 @@ fn power(divergence: &Divergence) -> String {
 }
 
 /// Where a trajectory is lost, or would be.
-fn lost(divergence: &Divergence, figure: fn(Place) -> f64) -> String {
+fn lost(divergence: &Divergence, figure: fn(RunPoint) -> f64) -> String {
     match (divergence.lost, divergence.would_be_lost) {
-        (Some(place), _) => short(figure(place)),
-        (None, Some(place)) => format!("{} by the law", far(figure(place))),
+        (Some(point), _) => short(figure(point)),
+        (None, Some(point)) => format!("{} by the law", far(figure(point))),
         (None, None) => "not seen".to_owned(),
     }
 }

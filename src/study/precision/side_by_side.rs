@@ -20,7 +20,7 @@ pub struct SideBySide {
     pub bodies: usize,
     /// The greatest radius, length.
     pub radius: f64,
-    /// The diagonal of the box about all places that bodies were seen at,
+    /// The diagonal of the box about all positions of bodies,
     /// length.
     pub extent: f64,
     /// Whether there is a uniform field.
@@ -113,8 +113,8 @@ impl SideBySide {
             let now = Truth::of(run.world(), run.gravity, run.periodic);
             truth.samples.push(run.sample(&now.bodies));
             for index in 0..bodies {
-                let place = now.bodies.position_of(index).cast::<f64>().to_array();
-                for (k, x) in place.into_iter().enumerate() {
+                let position = now.bodies.position_of(index).cast::<f64>().to_array();
+                for (k, x) in position.into_iter().enumerate() {
                     corners[0][k] = corners[0][k].min(x);
                     corners[1][k] = corners[1][k].max(x);
                 }

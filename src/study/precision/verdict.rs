@@ -49,14 +49,14 @@ fn trajectories(report: &PrecisionReport) -> String {
         let precision = divergence.precision;
         match divergence {
             Divergence { stopped: Some(_), .. } => format!("{precision} does not come to the end"),
-            Divergence { lost: Some(place), .. } => format!(
+            Divergence { lost: Some(point), .. } => format!(
                 "{precision} up to t = {} ({} collisions per body)",
-                short(place.time),
-                short(place.collisions_per_body)
+                short(point.time),
+                short(point.collisions_per_body)
             ),
-            Divergence { would_be_lost: Some(place), .. } => format!(
+            Divergence { would_be_lost: Some(point), .. } => format!(
                 "{precision} to the end, and up to about t = {} by its growth",
-                far(place.time)
+                far(point.time)
             ),
             _ => format!("{precision} to the end"),
         }

@@ -2,12 +2,12 @@
 
 use core::fmt;
 
-use super::{Report, Row, Settings, SpeedUp};
+use super::{Measurement, ScalingReport, Settings, SpeedUp};
 use crate::engine::Lanes;
-use crate::output::table::{Table, counted, grouped, rounded};
 use crate::scene::EngineKind;
+use crate::study::table::{Table, counted, grouped, rounded};
 
-impl fmt::Display for Report {
+impl fmt::Display for ScalingReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let engine = match self.engine {
             EngineKind::Stepped => "stepped",
@@ -36,7 +36,7 @@ impl fmt::Display for Report {
     }
 }
 
-impl Report {
+impl ScalingReport {
     /// What the columns mean.
     fn legend(&self) -> String {
         let Settings { threads, lanes, runs, .. } = &self.settings;
@@ -94,7 +94,7 @@ impl Report {
         }
     }
 
-    fn speed_up(&self, row: &Row) -> Option<&SpeedUp> {
+    fn speed_up(&self, row: &Measurement) -> Option<&SpeedUp> {
         self.speed_ups.iter().find(|ratio| {
             (&ratio.precision, ratio.bodies, ratio.threads, &ratio.lanes)
                 == (&row.precision, row.bodies, row.threads, &row.lanes)
@@ -122,7 +122,7 @@ impl Report {
 }
 
 /// What a variant is called.
-fn label(row: &Row) -> String {
+fn label(row: &Measurement) -> String {
     let unit = if row.lanes.parse::<u32>().is_ok() { " lanes" } else { "" };
     format!("  {}, {}{unit}", counted(row.threads as u64, "thread"), row.lanes)
 }

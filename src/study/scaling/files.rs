@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Report, Row};
+use super::{Measurement, ScalingReport};
 use crate::scene::EngineKind;
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use crate::study::{Folder, StudyError};
@@ -24,7 +24,7 @@ struct Line<'a> {
     state_hash: &'a str,
 }
 
-impl Report {
+impl ScalingReport {
     /// Writes all of it into a folder: `report.txt`, `scene.toml`,
     /// `scaling.csv` (nanoseconds per body and step, or per collision),
     /// `scaling.json`, and the pictures `time`, `memory` and, where lanes were
@@ -46,7 +46,7 @@ impl Report {
         Ok(())
     }
 
-    fn line<'a>(&self, row: &'a Row) -> Line<'a> {
+    fn line<'a>(&self, row: &'a Measurement) -> Line<'a> {
         let time = self.nanoseconds(row);
         Line {
             precision: &row.precision,
@@ -102,9 +102,10 @@ impl Report {
         let mut series: Vec<Series> = Vec::new();
         for (color, &precision) in self.settings.precisions.iter().enumerate() {
             let name = precision.name();
-            let rows: Vec<&Row> = self.sweep(name, self.settings.threads[0]).collect();
-            let per_body =
-                |row: &Row, bytes: u64| (row.bodies as f64, bytes as f64 / row.bodies as f64);
+            let rows: Vec<&Measurement> = self.sweep(name, self.settings.threads[0]).collect();
+            let per_body = |row: &Measurement, bytes: u64| {
+                (row.bodies as f64, bytes as f64 / row.bodies as f64)
+            };
             let peaks = rows.iter().filter_map(|row| Some(per_body(row, row.peak_resident?)));
             let of = |what: &str, mark, points| Series {
                 name: format!("{name}, {what}"),

@@ -25,7 +25,7 @@ const COLLISIONS_BEFORE: u64 = 4;
 
 /// A variant as it was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct Measurement {
     /// The precision's name.
     pub precision: String,
     /// How many bodies there are.
@@ -49,7 +49,7 @@ pub struct Row {
 }
 
 /// The variants of a size in one precision.
-pub(super) type Measured = Vec<Row>;
+pub(super) type Measured = Vec<Measurement>;
 
 /// What is to be done at a size.
 pub(super) struct Task<'a> {
@@ -151,7 +151,7 @@ impl Task<'_> {
             return Err(self.leaves_the_numbers(T::NAME));
         }
         let rows = self.variants.iter().zip(&worlds).zip(timings);
-        let rows = rows.enumerate().map(|(k, ((variant, world), timing))| Row {
+        let rows = rows.enumerate().map(|(k, ((variant, world), timing))| Measurement {
             precision: T::NAME.to_owned(),
             bodies,
             threads: variant.threads,

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::measure::{Measured, Row};
+use super::measure::{Measured, Measurement};
 use super::{Scaling, Settings};
 use crate::scene::EngineKind;
 use crate::study::clock::Timing;
@@ -11,7 +11,7 @@ use crate::study::{Machine, StudyError, Subject};
 
 /// What a scaling study found.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct ScalingReport {
     /// The scene.
     pub subject: Subject,
     /// On what it was measured.
@@ -21,7 +21,7 @@ pub struct Report {
     /// What was compared.
     pub settings: Settings,
     /// The variants of each precision and size.
-    pub points: Vec<Vec<Row>>,
+    pub points: Vec<Vec<Measurement>>,
     /// How the time grows.
     pub powers: Vec<Power>,
     /// What threads and lanes give.
@@ -65,7 +65,7 @@ pub struct SpeedUp {
     pub upper_quartile: f64,
 }
 
-impl Report {
+impl ScalingReport {
     pub(super) fn of(study: &Scaling, points: Vec<Measured>) -> Self {
         let Scaling { subject, machine, engine, settings, .. } = study.clone();
         let powers = powers(&settings, &points);
@@ -90,12 +90,12 @@ impl Report {
         &'a self,
         precision: &'a str,
         threads: usize,
-    ) -> impl Iterator<Item = &'a Row> {
+    ) -> impl Iterator<Item = &'a Measurement> {
         sweep(&self.settings, &self.points, precision, threads)
     }
 
     /// What the times are per: of one variant, nanoseconds per second of a run.
-    pub(super) fn nanoseconds(&self, row: &Row) -> Timing {
+    pub(super) fn nanoseconds(&self, row: &Measurement) -> Timing {
         let per = match self.engine {
             EngineKind::Stepped => row.work as f64 * row.bodies as f64,
             EngineKind::EventDriven => row.work as f64,
@@ -110,7 +110,7 @@ fn sweep<'a>(
     points: &'a [Measured],
     precision: &'a str,
     threads: usize,
-) -> impl Iterator<Item = &'a Row> {
+) -> impl Iterator<Item = &'a Measurement> {
     let lanes = settings.lanes[0].name();
     points.iter().flatten().filter(move |row| {
         row.precision == precision && row.threads == threads && row.lanes == lanes
@@ -134,7 +134,7 @@ fn powers(settings: &Settings, points: &[Measured]) -> Vec<Power> {
 }
 
 /// Threads against the first number of them, lanes against the scalar path.
-fn speed_ups(settings: &Settings, rows: &[Row]) -> Vec<SpeedUp> {
+fn speed_ups(settings: &Settings, rows: &[Measurement]) -> Vec<SpeedUp> {
     let Some(first) = rows.first() else { return Vec::new() };
     let base = settings.lanes[0].name();
     let scalar = rows.iter().find(|row| row.lanes == "scalar").unwrap_or(first);
@@ -144,7 +144,7 @@ fn speed_ups(settings: &Settings, rows: &[Row]) -> Vec<SpeedUp> {
         .iter()
         .filter(|row| has_lanes && row.threads == first.threads && row.lanes != scalar.lanes);
     let pairs = by_threads.map(|row| (row, first)).chain(by_lanes.map(|row| (row, scalar)));
-    let speed_up = |(row, before): (&Row, &Row)| {
+    let speed_up = |(row, before): (&Measurement, &Measurement)| {
         let ratio = before.timing.ratio_to(&row.timing);
         SpeedUp {
             precision: row.precision.clone(),
@@ -162,10 +162,10 @@ fn speed_ups(settings: &Settings, rows: &[Row]) -> Vec<SpeedUp> {
 }
 
 /// Whose bits are not those of the first one, in words.
-fn differing(rows: &[Row]) -> Vec<String> {
+fn differing(rows: &[Measurement]) -> Vec<String> {
     let Some(first) = rows.first() else { return Vec::new() };
     let other = rows.iter().filter(|row| row.state_hash != first.state_hash);
-    let words = |row: &Row| {
+    let words = |row: &Measurement| {
         format!(
             "{} with {} bodies: threads {}, lanes {} give {}, and threads {}, lanes {} give {}",
             row.precision,

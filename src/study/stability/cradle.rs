@@ -26,7 +26,7 @@ const DIAMETER: f64 = 1.0;
 
 /// A row of balls, of which the first ones come in at speed 1.
 #[derive(Clone, Copy)]
-struct Row {
+struct BallRow {
     name: &'static str,
     balls: usize,
     moving: usize,
@@ -37,7 +37,7 @@ struct Row {
 }
 
 fn trials(extent: Extent) -> Vec<Trial> {
-    let row = Row {
+    let row = BallRow {
         name: "",
         balls: extent.of(1_000, 100),
         moving: 1,
@@ -46,17 +46,17 @@ fn trials(extent: Extent) -> Vec<Trial> {
         engine: EngineKind::EventDriven,
     };
     let rows = [
-        Row { name: "touching", ..row },
-        Row { name: "gaps of 1/10", gap: 0.1, ..row },
-        Row { name: "ten come in", moving: 10, ..row },
-        Row { name: "lighter and lighter", ratio: 0.99, ..row },
-        Row { name: "touching, in steps", engine: EngineKind::Stepped, ..row },
-        Row { name: "gaps of 1/10, in steps", gap: 0.1, engine: EngineKind::Stepped, ..row },
+        BallRow { name: "touching", ..row },
+        BallRow { name: "gaps of 1/10", gap: 0.1, ..row },
+        BallRow { name: "ten come in", moving: 10, ..row },
+        BallRow { name: "lighter and lighter", ratio: 0.99, ..row },
+        BallRow { name: "touching, in steps", engine: EngineKind::Stepped, ..row },
+        BallRow { name: "gaps of 1/10, in steps", gap: 0.1, engine: EngineKind::Stepped, ..row },
     ];
     rows.into_iter().flat_map(|row| [cradle::<f32>(row), cradle::<f64>(row)]).collect()
 }
 
-fn cradle<T: Studied>(row: Row) -> Trial {
+fn cradle<T: Studied>(row: BallRow) -> Trial {
     trial::<T, _>(row.name, 0.5, move || {
         let time = row.balls as f64 * row.gap + 4.0;
         let scene = row.scene::<T>()?;
@@ -84,7 +84,7 @@ fn cradle<T: Studied>(row: Row) -> Trial {
             ));
             let extent = row.balls as f64 * (DIAMETER + row.gap);
             let off = row
-                .places(world.time())
+                .positions(world.time())
                 .into_iter()
                 .enumerate()
                 .map(|(k, x)| (bodies.position_of(k).x.to_f64() - x).abs());
@@ -104,7 +104,7 @@ fn cradle<T: Studied>(row: Row) -> Trial {
     })
 }
 
-impl Row {
+impl BallRow {
     fn scene<T: Studied>(&self) -> Result<Scene<T>, StudyError> {
         let mut builder: SceneBuilder<T> =
             Scene::builder().engine(self.engine).dt(1.0 / 128.0).impact(Impact::SubStep);
@@ -120,14 +120,14 @@ impl Row {
 
     /// Where the balls are at the start.
     fn start(&self) -> Vec<f64> {
-        let place = |k: usize| k as f64 * (DIAMETER + self.gap);
+        let start = |k: usize| k as f64 * (DIAMETER + self.gap);
         let way = |k: usize| if k < self.moving { DIAMETER } else { 0.0 };
-        (0..self.balls).map(|k| place(k) - way(k)).collect()
+        (0..self.balls).map(|k| start(k) - way(k)).collect()
     }
 
     /// Where equal balls are at a time: points that pass through each other,
     /// sorted, a diameter apart.
-    fn places(&self, time: f64) -> Vec<f64> {
+    fn positions(&self, time: f64) -> Vec<f64> {
         let mut points: Vec<f64> = self
             .start()
             .into_iter()

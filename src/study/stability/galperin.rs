@@ -34,13 +34,13 @@ fn trials(extent: Extent) -> Vec<Trial> {
 }
 
 fn billiard<T: Studied>(k: i32) -> Trial {
-    let turns = PI * 10.0_f64.powi(k);
+    let expected = PI * 10.0_f64.powi(k);
     let quantity = format!("collisions, k = {k}");
-    trial::<T, _>(quantity.clone(), 2.3e-7 * turns, move || {
+    trial::<T, _>(quantity.clone(), 2.3e-7 * expected, move || {
         let counted = collisions::<T>(100.0_f64.powi(k))? as f64;
-        let margin = turns.fract().min(1.0 - turns.fract()) * 10.0_f64.powi(-k);
-        let error = turns.sqrt() * T::EPSILON.to_f64();
-        let figure = Figure::equal(T::PRECISION, quantity.clone(), counted, turns.floor(), "");
+        let margin = expected.fract().min(1.0 - expected.fract()) * 10.0_f64.powi(-k);
+        let error = expected.sqrt() * T::EPSILON.to_f64();
+        let figure = Figure::equal(T::PRECISION, quantity.clone(), counted, expected.floor(), "");
         Ok(vec![figure.beyond_precision_if(3.0 * error > margin)])
     })
 }

@@ -27,7 +27,7 @@ pub(super) fn quaternion<T: Real>(spin: Vec3<T>, time: T) -> [T; 4] {
     [cosine, n.x, n.y, n.z]
 }
 
-/// The turn of the second, then of the first.
+/// The rotation of the second, then of the first.
 pub(super) fn product<T: Real>([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> [T; 4] {
     [
         a * e - b * f - c * g - d * h,

@@ -26,7 +26,7 @@ pub struct Section {
 
 /// What came of all cases of a study.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct StabilityReport {
     /// On what.
     pub machine: Machine,
     /// How long the runs are.
@@ -53,7 +53,7 @@ impl Section {
     }
 }
 
-impl Report {
+impl StabilityReport {
     /// All figures of all cases.
     pub fn figures(&self) -> impl Iterator<Item = &Figure> {
         self.cases.iter().flat_map(|case| &case.figures)
@@ -73,10 +73,12 @@ impl Report {
     pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
         folder.write("report.txt", self.to_string().as_bytes())?;
         folder.write_json("stability.json", self)?;
-        let rows: Vec<Row<'_>> = self
+        let rows: Vec<FigureRecord<'_>> = self
             .cases
             .iter()
-            .flat_map(|section| section.figures.iter().map(|figure| Row::of(&section.case, figure)))
+            .flat_map(|section| {
+                section.figures.iter().map(|figure| FigureRecord::of(&section.case, figure))
+            })
             .collect();
         folder.write_csv("stability.csv", &rows)?;
         for section in &self.cases {
@@ -91,7 +93,7 @@ impl Report {
 
 /// A row of the table of comma-separated values.
 #[derive(Serialize)]
-struct Row<'a> {
+struct FigureRecord<'a> {
     case: &'a str,
     precision: Precision,
     quantity: &'a str,
@@ -102,7 +104,7 @@ struct Row<'a> {
     verdict: Verdict,
 }
 
-impl<'a> Row<'a> {
+impl<'a> FigureRecord<'a> {
     fn of(case: &'a str, figure: &'a Figure) -> Self {
         let Figure { precision, quantity, law, measured, bound, unit, verdict } = figure;
         Self {
@@ -118,7 +120,7 @@ impl<'a> Row<'a> {
     }
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for StabilityReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\n", self.machine)?;
         for section in &self.cases {
@@ -162,11 +164,11 @@ fn rows(figures: &[Figure]) -> Vec<(&str, &str, [Option<&Figure>; 2])> {
     let mut rows: Vec<(&str, &str, [Option<&Figure>; 2])> = Vec::new();
     for figure in figures {
         let column = usize::from(figure.precision == Precision::F64);
-        let place = rows.iter().position(|(quantity, law, cells)| {
+        let known = rows.iter().position(|(quantity, law, cells)| {
             *quantity == figure.quantity && *law == figure.law && cells[column].is_none()
         });
-        match place {
-            Some(place) => rows[place].2[column] = Some(figure),
+        match known {
+            Some(known) => rows[known].2[column] = Some(figure),
             None => {
                 let mut cells = [None; 2];
                 cells[column] = Some(figure);

@@ -70,13 +70,14 @@ fn walk<T: Studied>(method: Method, steps: i32) -> Trial {
         let dt = T::ratio(1, 100);
         let curves = match method {
             Method::Quaternion => {
-                let turns: Vec<_> = runs.iter().map(|(_, spin)| quaternion(*spin, dt)).collect();
+                let rotations: Vec<_> =
+                    runs.iter().map(|(_, spin)| quaternion(*spin, dt)).collect();
                 let mut now: Vec<_> = runs.iter().map(|(m, _)| from_matrix(*m)).collect();
                 // The start is what the first quaternion says.
                 let runs: Vec<_> =
                     runs.iter().zip(&now).map(|(run, q)| (to_matrix(*q), run.1)).collect();
                 errors(method, steps, &runs, |k| {
-                    now[k] = normalised(product(turns[k], now[k]));
+                    now[k] = normalised(product(rotations[k], now[k]));
                     to_matrix(now[k])
                 })
             }
@@ -88,11 +89,11 @@ fn walk<T: Studied>(method: Method, steps: i32) -> Trial {
                 })
             }
             _ => {
-                let turns: Vec<_> =
+                let rotations: Vec<_> =
                     runs.iter().map(|run| turned(Mat3::IDENTITY, run.1, dt)).collect();
                 let mut now: Vec<_> = runs.iter().map(|run| run.0).collect();
                 errors(method, steps, &runs, |k| {
-                    now[k] = turns[k] * now[k];
+                    now[k] = rotations[k] * now[k];
                     now[k]
                 })
             }
@@ -105,10 +106,10 @@ fn polar<T: Studied>(k: usize, steps: i32) -> Trial {
     let name = Method::Polar.name();
     trial::<T, Findings>(format!("{name}, spin {k}"), 3.2e-6 * f64::from(steps), move || {
         let run = start::<T>(k);
-        let turn = turned(Mat3::IDENTITY, run.1, T::ratio(1, 100));
+        let rotation = turned(Mat3::IDENTITY, run.1, T::ratio(1, 100));
         let mut now = run.0;
         let curves = errors(Method::Polar, steps, &[run], |_| {
-            now = nearest_orthonormal(turn * now);
+            now = nearest_orthonormal(rotation * now);
             now
         });
         Ok(Findings { figures: Vec::new(), curves })

@@ -4,13 +4,13 @@ use core::fmt;
 
 use super::conclusions::{Found, Order, Theory};
 use super::quantity::Quantity;
-use super::report::Report;
+use super::report::WorkPrecisionReport;
 use crate::engine::Execution;
-use crate::output::table::{Table, counted, plain, seconds};
 use crate::scene::Precision;
 use crate::study::fit::quantile;
+use crate::study::table::{Table, counted, plain, seconds};
 
-impl Report {
+impl WorkPrecisionReport {
     /// Quantities that tell something: without spins no body turns.
     fn told(&self) -> Vec<Quantity> {
         let any = |quantity: &Quantity| {
@@ -144,7 +144,7 @@ fn size_of(error: f64) -> String {
     if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") }
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for WorkPrecisionReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let moment = self.outcomes.first().and_then(|outcome| outcome.moments.get(self.judged));
         let collisions = moment.map_or(0.0, |moment| moment.true_collisions);

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::conclusions::Judged;
 use super::method::Family;
 use super::quantity::Quantity;
-use super::report::Report;
+use super::report::WorkPrecisionReport;
 use crate::motion::Integrator;
 use crate::scene::Precision;
 use crate::scene::{EngineKind, Impact};
@@ -14,7 +14,7 @@ use crate::study::{Folder, StudyError};
 
 /// A row of the table of comma-separated values.
 #[derive(Serialize)]
-struct Row {
+struct MethodRecord {
     engine: EngineKind,
     integrator: Option<Integrator>,
     impact: Option<Impact>,
@@ -39,7 +39,7 @@ struct Row {
     state_hash: String,
 }
 
-impl Report {
+impl WorkPrecisionReport {
     /// Writes tables, pictures, the scene and the machine into a folder.
     ///
     /// # Errors
@@ -52,7 +52,7 @@ impl Report {
         self.picture().write(folder, "work-precision")
     }
 
-    fn rows(&self) -> Vec<Row> {
+    fn rows(&self) -> Vec<MethodRecord> {
         let methods = self.sweep.methods.iter().zip(&self.outcomes);
         let rows = methods.flat_map(|(method, outcome)| {
             let runs = self.sweep.executions.iter().zip(&outcome.timings);
@@ -60,7 +60,7 @@ impl Report {
                 outcome.moments.iter().map(move |moment| {
                     let figure = |quantity: Quantity| moment.deviation.map(|d| quantity.of(&d));
                     let stepping = method.stepping;
-                    Row {
+                    MethodRecord {
                         engine: match stepping {
                             None => EngineKind::EventDriven,
                             Some(_) => EngineKind::Stepped,
@@ -96,7 +96,7 @@ impl Report {
     /// The work–precision diagram.
     fn picture(&self) -> Picture {
         let results = self.results(self.judged, self.quantity);
-        let place = |result: &Judged| (result.seconds, result.error);
+        let point = |result: &Judged| (result.seconds, result.error);
         let families = self.families();
         // A colour for each engine, whatever the precision.
         let mut steppings: Vec<_> = families.iter().map(|family| family.stepping).collect();
@@ -114,7 +114,7 @@ impl Report {
                 points: results
                     .iter()
                     .filter(|result| result.method.family() == *family)
-                    .map(place)
+                    .map(point)
                     .collect(),
             })
             .collect();
@@ -122,7 +122,7 @@ impl Report {
             name: "no other is faster and better".to_owned(),
             color: None,
             mark: Mark::Rings,
-            points: self.front.iter().map(place).collect(),
+            points: self.front.iter().map(point).collect(),
         });
         Picture {
             charts: vec![Chart {

@@ -131,14 +131,14 @@ pub(super) fn length_scale<T: Real>(scene: &Scene<T>) -> f64 {
     if radius > 0.0 {
         return radius;
     }
-    let places = || (0..bodies.len()).map(|k| bodies.position_of(k).cast().to_array());
-    let middle = places().fold([0.0; 3], |sum, place| {
-        core::array::from_fn(|k| sum[k] + place[k] / bodies.len() as f64)
+    let positions = || (0..bodies.len()).map(|k| bodies.position_of(k).cast().to_array());
+    let middle = positions().fold([0.0; 3], |sum, position| {
+        core::array::from_fn(|k| sum[k] + position[k] / bodies.len() as f64)
     });
-    let distance = |place: [f64; 3]| {
-        place.iter().zip(middle).map(|(x, m)| (x - m).powi(2)).sum::<f64>().sqrt()
+    let distance = |position: [f64; 3]| {
+        position.iter().zip(middle).map(|(x, m)| (x - m).powi(2)).sum::<f64>().sqrt()
     };
-    let greatest = places().map(distance).fold(0.0, f64::max);
+    let greatest = positions().map(distance).fold(0.0, f64::max);
     if greatest > 0.0 { greatest } else { 1.0 }
 }
 

@@ -16,7 +16,7 @@ use crate::study::{Machine, Subject};
 
 /// What was measured of a scene's methods.
 #[derive(Clone, Debug, Serialize)]
-pub struct Report {
+pub struct WorkPrecisionReport {
     /// On what.
     pub machine: Machine,
     /// Of what.
@@ -43,7 +43,7 @@ pub struct Report {
     pub(super) judged: usize,
 }
 
-impl Report {
+impl WorkPrecisionReport {
     pub(super) fn new(
         file: &SceneFile,
         sweep: &Sweep,

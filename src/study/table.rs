@@ -5,25 +5,25 @@ use core::fmt;
 /// Rows of a label and some cells; each column is as wide as its widest cell. A
 /// label without cells is a heading, and may be wider than its column.
 #[derive(Debug, Default)]
-pub(crate) struct Table {
+pub struct Table {
     rows: Vec<(String, Vec<String>)>,
     holds_texts: bool,
 }
 
 impl Table {
     /// Adds a row.
-    pub(crate) fn row(&mut self, label: &str, cells: impl IntoIterator<Item = String>) {
+    pub fn row(&mut self, label: &str, cells: impl IntoIterator<Item = String>) {
         self.rows.push((label.to_owned(), cells.into_iter().collect()));
     }
 
     /// A table whose cells are texts, and start where their column starts;
     /// numbers end where it ends.
-    pub(crate) fn of_texts() -> Self {
+    pub fn of_texts() -> Self {
         Self { holds_texts: true, ..Self::default() }
     }
 
     /// Whether there is no row.
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
@@ -57,23 +57,23 @@ impl fmt::Display for Table {
 }
 
 /// All digits of a number: the shortest that read back as the same one.
-pub(crate) fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     format!("{value:?}")
 }
 
 /// All digits, and no `.0` behind a whole number.
-pub(crate) fn plain(value: f64) -> String {
+pub fn plain(value: f64) -> String {
     let digits = digits(value);
     digits.strip_suffix(".0").map_or(digits.clone(), str::to_owned)
 }
 
 /// A small difference: its sign and three digits.
-pub(crate) fn difference(value: f64) -> String {
+pub fn difference(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:+.2e}") }
 }
 
 /// A whole number with commas between the thousands.
-pub(crate) fn grouped(value: u64) -> String {
+pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut grouped = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -86,12 +86,12 @@ pub(crate) fn grouped(value: u64) -> String {
 }
 
 /// A count of things: `1 thread`, `20,000 threads`.
-pub(crate) fn counted(count: u64, thing: &str) -> String {
+pub fn counted(count: u64, thing: &str) -> String {
     format!("{} {thing}{}", grouped(count), if count == 1 { "" } else { "s" })
 }
 
 /// Three digits of a positive number, in words from a million up.
-pub(crate) fn rounded(value: f64) -> String {
+pub fn rounded(value: f64) -> String {
     match value {
         v if v >= 1e15 || (v > 0.0 && v < 1e-3) => format!("{v:.2e}"),
         v if v >= 0.9995e9 => format!("{} billion", three_digits(v / 1e9)),
@@ -114,7 +114,7 @@ fn three_digits(value: f64) -> String {
 }
 
 /// A length of time on the wall.
-pub(crate) fn seconds(value: f64) -> String {
+pub fn seconds(value: f64) -> String {
     match value {
         v if v < 0.9995e-3 => format!("{} µs", three_digits(v * 1e6)),
         v if v < 0.9995 => format!("{} ms", three_digits(v * 1e3)),

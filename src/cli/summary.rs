@@ -1,18 +1,19 @@
 //! Summary: what a run was and what came of it.
 
+mod display;
+
 use serde::Serialize;
 
-use crate::contact::Surface;
-use crate::engine::{Collisions, World};
-use crate::motion::Integrator;
-use crate::observe::{
+use carom::contact::Surface;
+use carom::engine::{Collisions, World};
+use carom::motion::Integrator;
+use carom::observe::{
     AngularMomentum, Energy, Momentum, StateHash, Temperature, Totals, collision_rate,
     compressibility, integrator_drift, total_mass,
 };
-use crate::real::Real;
-use crate::scene::Scene;
-use crate::scene::{EngineKind, Impact};
-use crate::vec3::Vec3;
+use carom::real::Real;
+use carom::scene::{EngineKind, Impact, Scene};
+use carom::vec3::Vec3;
 
 /// What was run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -301,12 +302,18 @@ impl AngularMomentumSummary {
 
 /// The `f64` with the digits that a number of any precision is known by: `0.1`
 /// for the `f32` nearest to it, not `0.10000000149011612`.
-///
-/// ```
-/// assert_eq!(carom::output::shortest(0.1_f32), 0.1);
-/// assert_eq!(carom::output::shortest(0.1_f64), 0.1);
-/// ```
 #[must_use]
 pub fn shortest<T: Real>(value: T) -> f64 {
     format!("{value:?}").parse().unwrap_or_else(|_| value.to_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_digits_are_those_of_the_precision() {
+        assert_eq!(shortest(0.1_f32), 0.1);
+        assert_eq!(shortest(0.1_f64), 0.1);
+    }
 }

@@ -1,10 +1,9 @@
-//! Report: the summary as a person reads it, in 80 columns.
+//! The summary as a person reads it, in 80 columns.
 
 use core::fmt;
 
-use super::summary::{Summary, shortest};
-use super::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
-use crate::scene::Impact;
+use super::{Summary, shortest};
+use carom::study::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
 
 /// The labels of a vector's rows.
 const AXES: [&str; 3] = ["  x", "  y", "  z"];
@@ -91,11 +90,7 @@ impl Summary {
         let (Some(integrator), Some(impact)) = (self.setup.integrator, self.setup.impact) else {
             return "event-driven, every collision at its exact time".to_owned();
         };
-        let impact = match impact {
-            Impact::EndOfStep => "impacts at the end of a step",
-            Impact::SubStep => "impacts at their time within a step",
-        };
-        format!("stepped, {integrator}, {impact}")
+        format!("stepped, {integrator}, impacts {impact}")
     }
 
     fn conserved(&self) -> Table {

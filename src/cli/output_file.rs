@@ -150,19 +150,6 @@ impl OutputFile {
     ///
     /// # Errors
     /// If no file can be written there.
-    ///
-    /// ```
-    /// use std::io::Write;
-    /// use carom::output::OutputFile;
-    /// let folder = tempfile::tempdir()?;
-    /// let path = folder.path().join("state.csv");
-    /// let mut file = OutputFile::open(&path)?;
-    /// file.write_all(b"id\n")?;
-    /// assert!(!path.exists());
-    /// file.finish()?;
-    /// assert_eq!(std::fs::read(&path)?, b"id\n");
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn open(path: &Path) -> Result<Self, OutputError> {
         let failed = |error: io::Error| OutputError::Path {
             path: path.into(),
@@ -272,6 +259,17 @@ mod tests {
             entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
+    }
+
+    #[test]
+    fn it_has_its_name_only_when_it_is_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("state.csv");
+        let mut file = OutputFile::open(&path).unwrap();
+        file.write_all(b"id\n").unwrap();
+        assert!(!path.exists());
+        file.finish().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"id\n");
     }
 
     #[test]
