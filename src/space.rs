@@ -1,6 +1,8 @@
 //! Space: open or periodic, and who is near what in it.
 
 pub(crate) mod broadphase;
+pub(crate) mod cells;
+pub(crate) mod levels;
 pub(crate) mod neighbours;
 #[cfg(test)]
 mod noise;

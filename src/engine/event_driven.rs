@@ -3,7 +3,8 @@
 //! Between two collisions a body's path is known in closed form, so nothing is
 //! computed until something happens (Alder and Wainwright 1959). Of what is
 //! ahead each body keeps its first contacts ([`agenda`]); the calendar says
-//! which body is next ([`calendar`]); cells say what is near what ([`cells`]).
+//! which body is next ([`calendar`]); cells say what is near
+//! what ([`levels`](crate::space::levels)).
 //!
 //! A contact time is a function of the two flights that lead to it, and of
 //! nothing else: not of when it was found, from which side, or in which lanes. Flights
@@ -12,7 +13,6 @@
 
 mod agenda;
 mod calendar;
-mod cells;
 mod clock;
 mod coarse;
 mod collide;
@@ -20,7 +20,6 @@ mod crossing;
 mod driver;
 mod features;
 mod flight;
-mod levels;
 mod meeting;
 mod near;
 mod period;

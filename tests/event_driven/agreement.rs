@@ -262,6 +262,16 @@ fn in_a_crowd() {
         for (scene, most) in scenes.into_iter().zip([300, 1_500]) {
             same_events(&scene.build().unwrap(), 0, most);
         }
+        // Cells suit the crowd; some that are far away come back through it.
+        let crowd = Spheres::random(120).radius(0.3).temperature(1.0).seed(9);
+        let mut open = builder::<T>().name("strays").spheres(crowd.within([0.0; 3], [4.5; 3]));
+        for k in 0..6 {
+            let far = 50.0 + 150.0 * f64::from(k);
+            let [x, y, z] = [[far, 2.0, 2.2], [2.5, -far, 2.0], [2.0, 2.4, far]][k as usize % 3];
+            let velocity = [x, y, z].map(|c: f64| (2.25 - c) * 3.0);
+            open = open.sphere(Sphere::new([x, y, z]).radius(0.2).velocity(velocity));
+        }
+        same_events(&open.build().unwrap(), 0, 300);
     }
     crowds::<f32>();
     crowds::<f64>();

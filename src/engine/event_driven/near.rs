@@ -1,7 +1,7 @@
 //! Near: which fixed features a body in a cell can touch.
 
-use super::cells::{Cells, Ends, Region};
 use crate::real::Real;
+use crate::space::cells::{Cells, Ends, Region};
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -164,7 +164,7 @@ pub(super) fn region<T: Real>(
 ) -> Region<T> {
     let inside = interiors.reduce(|[a, b], [c, d]| [a.greater(c), b.lesser(d)]);
     if let Some([lower, upper]) = inside {
-        return Region { lower, upper, ends: Ends::Closed };
+        return Region::new(lower, upper, Ends::Closed);
     }
     let solids = features.iter().filter_map(Feature::bounds);
     let points = solids.chain(centers.map(|center| [center, center]));
@@ -173,5 +173,5 @@ pub(super) fn region<T: Real>(
     let missing = |low: T, high: T| (least - (high - low)).greater(T::ZERO) * T::ratio(1, 2);
     let missing =
         Vec3::new(missing(lower.x, upper.x), missing(lower.y, upper.y), missing(lower.z, upper.z));
-    Region { lower: lower - missing, upper: upper + missing, ends: Ends::Joined }
+    Region::new(lower - missing, upper + missing, Ends::Joined)
 }

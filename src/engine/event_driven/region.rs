@@ -4,13 +4,13 @@ use super::agenda::{Agenda, Mark, PartnerCode};
 use super::calendar::Calendar;
 use super::coarse::Coarse;
 use super::flight::{Flight, Record};
-use super::levels::Levels;
 use super::meeting::Meetings;
 use super::setting::Setting;
 use crate::engine::plan::Turning;
 use crate::mat3::Mat3;
 use crate::motion::integrator::{Coasting, VelocityVerlet};
 use crate::real::Real;
+use crate::space::levels::Levels;
 use crate::vec3::Vec3;
 
 /// The bodies of a region and what is ahead of them, by slot: neighbours in

@@ -1,7 +1,6 @@
 //! Search: what a body will meet.
 
 use super::agenda::{Expected, PartnerCode};
-use super::cells::Cells;
 use super::features::search_features;
 use super::flight::{Flight, WIDEST};
 use super::meeting::{TOGETHER, meeting};
@@ -12,6 +11,7 @@ use crate::engine::plan::Plan;
 use crate::lane::Lane;
 use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use crate::real::Real;
+use crate::space::cells::Cells;
 use crate::space::{OpenSpace, Space};
 use crate::vec3::Vec3;
 

@@ -1,7 +1,5 @@
 //! Setting: what all workers read and none writes.
 
-use super::cells;
-use super::levels::Levels;
 use super::near::{self, Near};
 use super::search::{Search, further, searcher};
 use crate::bodies::{Bodies, PerBody};
@@ -9,6 +7,8 @@ use crate::column::Column;
 use crate::engine::plan::{Plan, Turning};
 use crate::real::Real;
 use crate::scene::Scene;
+use crate::space::cells::{Ends, Region};
+use crate::space::levels::Levels;
 use crate::space::{OpenSpace, PeriodicBox, Space};
 use crate::surroundings::{Feature, features_of};
 use crate::vec3::Vec3;
@@ -55,21 +55,24 @@ impl<T: Real> Setting<T> {
         let len = bodies.len();
         let radius = bodies.radius.greatest();
         let interiors = scene.surroundings.iter().filter_map(|shape| shape.interior());
+        // Wide enough for cells that do not all neighbour each other.
+        let least = radius * T::whole(9);
         let grid = match scene.periodic {
-            Some(PeriodicBox { lower, upper }) => {
-                cells::Region { lower, upper, ends: cells::Ends::Joined }
-            }
+            Some(PeriodicBox { lower, upper }) => Region::new(lower, upper, Ends::Joined),
             None => near::region(
-                // Wide enough for cells that do not all neighbour each other.
-                radius * T::whole(9),
+                least,
                 interiors.filter(|_| plan.features > 0),
                 &features,
                 (0..len).map(|index| bodies.position_of(index)),
             ),
         };
         let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
-        let (cells, spacing) = Levels::fitting(grid, &bodies.radius, len, bounded);
         let is_periodic = scene.periodic.is_some();
+        let fitting = |region| Levels::fitting(region, &bodies.radius, len, bounded);
+        let is_open = !is_periodic && grid.ends == Ends::Joined;
+        let cells = is_open.then(|| fitting(grid.crowd(least, &bodies.position)));
+        let cells = cells.filter(|cells| cells.finest().can_number(&grid));
+        let cells = cells.unwrap_or_else(|| fitting(grid));
         let near = Near::new(&features, &images, cells.finest(), grid.ends, radius);
         let setting = Self {
             gravity: scene.gravity,
@@ -82,7 +85,7 @@ impl<T: Real> Setting<T> {
             has_cells: plan.has_pairs || near.has_cells(),
             near,
             search_bodies: searcher(&plan, is_periodic),
-            spacing,
+            spacing: grid.spacing(radius + radius, len),
             inverse_mass: bodies.mass.map(|mass| T::ONE / mass),
             inverse_inertia: bodies.inertia.map(|inertia| T::ONE / inertia),
             bodies,

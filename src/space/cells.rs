@@ -5,11 +5,13 @@
 //! kept up as bodies cross from one to the next.
 
 mod axis;
+mod region;
 
 use std::collections::BTreeMap;
 
-pub(super) use axis::Ends;
+pub(crate) use axis::Ends;
 use axis::{Axis, BLOCK, NOWHERE, WIDE, count, number, numbers};
+pub(crate) use region::Region;
 
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -38,7 +40,7 @@ const STRIDE: usize = 8;
 
 /// The grid and who is in its cells.
 #[derive(Debug)]
-pub(super) struct Cells<T> {
+pub(crate) struct Cells<T> {
     axes: [Axis<T>; 3],
     margin: Vec3<T>,
     /// Blocks of a cell.
@@ -54,30 +56,15 @@ pub(super) struct Cells<T> {
     fullest: usize,
 }
 
-/// The region that the grid covers.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Region<T> {
-    pub lower: Vec3<T>,
-    pub upper: Vec3<T>,
-    pub ends: Ends,
-}
-
 impl<T: Real> Cells<T> {
     /// A grid of empty cells that suits `len` bodies among `parts` bounded fixed
-    /// parts, which touch at distances of up to `reach`, and how far apart the
-    /// bodies are on the average.
-    pub fn fitting(region: Region<T>, reach: T, len: usize, parts: usize) -> (Self, T) {
-        let extent = (region.upper - region.lower).to_array();
-        let extent = extent.map(|side| side.greater(reach));
-        let volume: f64 = extent.iter().map(|side| side.to_f64()).product();
-        let mean = |count: usize| (volume / count.max(1) as f64).cbrt();
-        let distance = mean(len);
-        let spacing = T::from_f64(if distance > 0.0 { distance } else { 1.0 }).greater(reach);
-        let distance = mean(len + parts);
+    /// parts, which touch at distances of up to `reach`.
+    pub fn fitting(region: Region<T>, reach: T, len: usize, parts: usize) -> Self {
+        let distance = region.mean_distance(reach, len + parts);
         let is_far = distance > FAR_APART * reach.to_f64();
         let wanted = if is_far { T::from_f64(FAR_SIDE * distance) } else { reach };
         let most = CELLS_BESIDES + CELLS_EACH * (len + parts) as u64;
-        (Self::new(region, reach, wanted, most.min(MOST_NUMBERS)), spacing)
+        Self::new(region, reach, wanted, most.min(MOST_NUMBERS))
     }
 
     /// A grid of at most `most` empty cells with sides of at least `reach`, of
@@ -154,6 +141,13 @@ impl<T: Real> Cells<T> {
     /// Whether every cell neighbours every other one along an axis.
     fn are_all_neighbours(&self, axis: usize) -> bool {
         self.axes[axis].ends == Ends::Joined && self.axes[axis].count < 4
+    }
+
+    /// Whether all cells of a region have coordinates, with some to spare.
+    pub fn can_number(&self, region: &Region<T>) -> bool {
+        let extent = (region.upper - region.lower).to_array();
+        let most = T::whole(1 << 27);
+        (0..3).all(|k| extent[k] <= self.axes[k].side * most)
     }
 
     /// The cell's coordinates of a point.
@@ -480,9 +474,7 @@ fn least_side<T: Real>(region: Region<T>, reach: T) -> T {
 /// By how much positions far from the origin are rounded, for bodies that stop at a
 /// face.
 fn rounding<T: Real>(region: Region<T>) -> T {
-    let corners = [region.lower, region.upper].map(Vec3::to_array);
-    let farthest = corners.iter().flatten().fold(T::ZERO, |most, c| most.greater(c.abs()));
-    farthest * T::EPSILON * T::whole(64)
+    region.farthest() * T::EPSILON * T::whole(64)
 }
 
 /// Where the body of a number is among a cell's places.

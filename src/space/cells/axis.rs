@@ -14,7 +14,7 @@ pub(super) const WIDE: i32 = 5;
 
 /// How space is bounded along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::engine::event_driven) enum Ends {
+pub(crate) enum Ends {
     /// The last cell is a neighbour of the first: a periodic box, or open
     /// space, in which cells far apart share a place in memory.
     Joined,
