@@ -1,8 +1,9 @@
-//! Space: open or periodic, and who is near what in it.
+//! Space: open or periodic, and what is near what in it.
 
 pub(crate) mod broadphase;
 pub(crate) mod cells;
 pub(crate) mod levels;
+mod near_pairs;
 pub(crate) mod neighbours;
 #[cfg(test)]
 mod noise;
@@ -10,6 +11,7 @@ mod parts;
 mod periodic;
 mod tree;
 
+pub use near_pairs::near_pairs;
 pub use parts::FixedParts;
 pub use periodic::{OpenSpace, PeriodicBox, Space};
 pub(crate) use tree::joined;

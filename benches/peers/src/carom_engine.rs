@@ -5,10 +5,10 @@ use std::error::Error;
 
 use carom::bodies::{Bodies, BodiesError, PerBody};
 use carom::engine::{Execution, Stepped};
-use carom::scene::{Impact, OrientationUpdate};
 use carom::motion::Integrator;
 use carom::real::Real;
 use carom::scene::{self, Encounters};
+use carom::scene::{Impact, OrientationUpdate};
 use carom::surroundings::{Cuboid, Plane};
 use carom::vec3::Vec3;
 
