@@ -4,9 +4,8 @@ use std::cell::OnceCell;
 use std::error::Error;
 
 use carom::bodies::{Bodies, BodiesError, PerBody};
-use carom::engine::{Execution, Stepped};
+use carom::engine::{Compiled, Execution, Stepped};
 use carom::motion::Integrator;
-use carom::real::Real;
 use carom::scene::{self, Encounters};
 use carom::scene::{Impact, OrientationUpdate};
 use carom::surroundings::{Cuboid, Plane};
@@ -58,7 +57,7 @@ impl Peer for Carom {
     }
 }
 
-fn boxed<T: Real>(
+fn boxed<T: Compiled>(
     scene: &Scene,
     threads: usize,
     settings: Settings,
@@ -69,7 +68,7 @@ fn boxed<T: Real>(
 }
 
 /// The scene as carom has it.
-fn translated<T: Real>(
+fn translated<T: Compiled>(
     scene: &Scene,
     settings: Settings,
 ) -> Result<scene::Scene<T>, Box<dyn Error>> {
@@ -96,7 +95,7 @@ fn translated<T: Real>(
     Ok(builder.build()?)
 }
 
-fn bodies<T: Real>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
+fn bodies<T: Compiled>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
     let all = |vector: fn(&Sphere) -> [f64; 3]| -> Vec<[T; 3]> {
         spheres.iter().map(|sphere| vector(sphere).map(T::from_f64)).collect()
     };
@@ -109,19 +108,19 @@ fn bodies<T: Real>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
     Ok(bodies)
 }
 
-struct CaromWorld<T: Real> {
+struct CaromWorld<T: Compiled> {
     engine: Stepped<T>,
     /// All bodies after the last step, once somebody has asked for one.
     bodies: OnceCell<Bodies<T>>,
 }
 
-impl<T: Real> CaromWorld<T> {
+impl<T: Compiled> CaromWorld<T> {
     fn bodies(&self) -> &Bodies<T> {
         self.bodies.get_or_init(|| self.engine.bodies())
     }
 }
 
-impl<T: Real> World for CaromWorld<T> {
+impl<T: Compiled> World for CaromWorld<T> {
     fn advance(&mut self, steps: usize) -> Result<(), PeerError> {
         self.bodies.take();
         self.engine.advance_steps(steps as u64);
@@ -155,7 +154,7 @@ impl<T: Real> World for CaromWorld<T> {
     }
 }
 
-fn array<T: Real>(vector: Vec3<T>) -> [f64; 3] {
+fn array<T: Compiled>(vector: Vec3<T>) -> [f64; 3] {
     vector.to_array().map(T::to_f64)
 }
 
