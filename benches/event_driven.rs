@@ -179,7 +179,7 @@ impl Row {
     }
 
     /// Collisions of a body before anything is measured. A dense lattice of few
-    /// bodies takes 30 to melt; so many of a million bodies take a minute.
+    /// bodies takes 30 to melt; the same for a million bodies takes a minute.
     fn melting(&self, is_full: bool) -> u64 {
         match self.matter {
             Matter::Fluid { density, .. } if density > 0.8 && self.bodies < 1_000_000 => 30,

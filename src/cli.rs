@@ -52,7 +52,7 @@ fn failed(failure: &Failure) -> ExitCode {
     if failure.is_closed_pipe() {
         return ExitCode::SUCCESS;
     }
-    // There is nobody to tell when standard error is closed too.
+    // No message can be written when standard error is closed too.
     let _ = writeln!(io::stderr(), "error: {failure}");
     ExitCode::from(failure.exit_status())
 }

@@ -23,7 +23,7 @@ const EACH: usize = 2 << 10;
 /// Pairs that are looked at for each body, fixed part or event: few periods pass.
 const TRIED: u64 = 1_000;
 
-/// Builds a scene of so many bodies and fixed parts and runs it event by event,
+/// Builds a scene of `count` bodies and fixed parts and runs it event by event,
 /// within the bounds of memory and of pairs looked at.
 fn run<T: Compiled>(count: usize, duration: f64, scene: SceneBuilder<T>) -> Bodies<T> {
     // The limit is one for all tests.

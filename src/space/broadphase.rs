@@ -1,4 +1,4 @@
-//! Broad phase: who can touch whom before the next search.
+//! Broad phase: which bodies can touch before the next search.
 //!
 //! A search sorts the bodies by the cells of a uniform grid, so that neighbours
 //! in space become neighbours in memory, and remembers every pair nearer than
@@ -117,7 +117,7 @@ impl<T: Real> BroadPhase<T> {
         T::from_f64(diameter * best)
     }
 
-    /// Whether there are so many bounded fixed parts that a body with a wide skin
+    /// Whether there are enough bounded fixed parts that a body with a wide skin
     /// is near to many.
     #[must_use]
     pub fn has_many_parts(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Cells: who is near whom.
+//! Cells: what is near what.
 //!
 //! Space is cut into cells no smaller than the greatest diameter, so that two
 //! bodies can only touch if their cells are neighbours. Who is in a cell is
@@ -20,7 +20,7 @@ use crate::vec3::Vec3;
 /// cell's side: one that stops at a face does not cross it to and fro.
 const MARGIN: i32 = 128;
 
-/// Where the mean distance of bodies is more than so many diameters, they are
+/// Where the mean distance of bodies is more than this number of diameters, they are
 /// far apart: cells of their size would be empty, and crossed all the time.
 const FAR_APART: f64 = 1.5;
 
@@ -48,7 +48,7 @@ pub(crate) struct Cells<T> {
     /// The places of a cell's bodies, in as many blocks as the fullest cell
     /// needs; the last number of the first one is their count.
     places: Vec<[u32; STRIDE]>,
-    /// Up to so many blocks all cells grow with the fullest one.
+    /// The number of blocks up to which all cells grow with the fullest one.
     most_blocks: usize,
     /// The bodies that are more than a cell's blocks have room for.
     spilled: BTreeMap<u32, Vec<u32>>,
@@ -85,7 +85,7 @@ impl<T: Real> Cells<T> {
         Self::of_counts(region, counts, most)
     }
 
-    /// A grid of empty cells, so many along each axis. It grows to at most twice
+    /// A grid of empty cells, `counts` along each axis. It grows to at most twice
     /// `most` blocks.
     fn of_counts(region: Region<T>, counts: [i32; 3], most: u64) -> Self {
         let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
@@ -111,7 +111,7 @@ impl<T: Real> Cells<T> {
         }
     }
 
-    /// An empty grid of the same space with so many cells along each axis.
+    /// An empty grid of the same space with `counts` cells along each axis.
     pub fn divided(&self, region: Region<T>, counts: [i32; 3]) -> Self {
         Self::of_counts(region, counts, self.most_blocks as u64 / 2)
     }
@@ -258,8 +258,8 @@ impl<T: Real> Cells<T> {
         }
     }
 
-    /// The corners of a cell's inside, with the margin. Nobody leaves a region
-    /// that is closed: there it ends farther away than anybody flies in a period,
+    /// The corners of a cell's inside, with the margin. No body leaves a region
+    /// that is closed: there it ends farther away than any body flies in a period,
     /// and not so far that its product with an acceleration overflows.
     #[inline(always)]
     pub fn bounds(&self, cell: [i32; 3], axis: usize) -> [T; 2] {

@@ -2,7 +2,7 @@
 //! ones around them.
 //!
 //! Each level is a grid for the bodies of one factor of two in the radius, or of
-//! several. The grids are nested: a cell is told by its coordinates in the finest
+//! several. The grids are nested: a cell is named by its coordinates in the finest
 //! one, and those of a coarser one have fewer binary digits. All bodies cross the
 //! cells of the finest level.
 //!
@@ -130,7 +130,7 @@ impl<T: Real> Levels<T> {
         Some(Self { levels })
     }
 
-    /// The finest grid, in whose coordinates cells are told.
+    /// The finest grid, in whose coordinates cells are named.
     #[inline(always)]
     pub fn finest(&self) -> &Cells<T> {
         &self.levels[self.levels.len() - 1].cells

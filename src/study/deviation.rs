@@ -13,7 +13,7 @@ use crate::space::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
 /// A trajectory is lost where bodies are off by this part of the greatest radius:
-/// it is chance then who meets whom next.
+/// it is chance then which bodies meet next.
 pub const LOST: f64 = 0.1;
 
 /// What a state should be: that of a world of a finer precision.
@@ -97,7 +97,7 @@ impl<T: Real> Truth<T> {
 }
 
 impl Deviation {
-    /// Whether all of it can be told.
+    /// Whether all of it is finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         let Self { position, position_worst, velocity, orientation, .. } = *self;

@@ -31,11 +31,11 @@ pub trait Watch: Sync {
         let _ = what;
     }
 
-    /// So many points are ahead, of so many in all, which should take so many
+    /// The points that are ahead, of those in all, which should take this number of
     /// seconds.
     fn begins(&self, ahead: usize, all: usize, seconds: f64);
 
-    /// A point is done; the others should take so many seconds.
+    /// A point is done; the others should take this number of seconds.
     fn is_done(&self, key: &str, seconds_left: f64);
 }
 
@@ -55,7 +55,7 @@ pub enum Order {
 }
 
 impl<'a, R: Serialize + DeserializeOwned + Send> Point<'a, R> {
-    /// A point that does this, in about so many seconds.
+    /// A point that does this, in about this number of seconds.
     pub fn new(
         key: impl Into<String>,
         seconds: f64,

@@ -82,8 +82,8 @@ enum Outcome {
 }
 
 impl PrecisionStudy {
-    /// A study of a scene by its own engine, with so many runs of each precision
-    /// and so many points in time.
+    /// A study of a scene by its own engine, with `runs` runs of each precision
+    /// and `samples` points in time.
     ///
     /// # Errors
     /// If the scene has a mistake or no duration, or for numbers that make no

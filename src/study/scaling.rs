@@ -37,7 +37,7 @@ pub use settings::Settings;
 
 use measure::{Measured, Task};
 
-/// So many bodies, or fewer, are looked at beforehand.
+/// This number of bodies, or fewer, is looked at beforehand.
 const SMALL: u64 = 1_000;
 
 /// The study of a scene. What it serialises to is all that its results depend

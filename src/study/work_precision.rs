@@ -8,7 +8,7 @@
 //!
 //! Collisions make errors grow exponentially. Where a scene's own duration is
 //! past what `f32` can foretell at all, methods are compared over a quarter of
-//! the time that it can; whoever asks for more is told from when on a
+//! the time that it can; asked for more, it says from when on a
 //! trajectory is lost, since a number there would be noise.
 
 mod conclusions;

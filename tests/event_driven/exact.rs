@@ -135,7 +135,7 @@ fn bouncing_ball() {
 }
 
 /// A ball that comes down just after a whole time, when the engine begins to
-/// count time anew: it is not taken for one that has just bounced off.
+/// count time again: it is not taken for one that has just bounced off.
 #[test]
 fn bounces_near_whole_times() {
     fn bounce<T: Compiled>() {

@@ -40,7 +40,7 @@ fn fluid(count: u64, density: f64, seed: u64) -> EventDriven<f64> {
     world
 }
 
-/// Z and Γ at kT = 1, over so many collisions a sphere.
+/// Z and Γ at kT = 1, over a number of collisions a sphere.
 fn measured(world: &mut EventDriven<f64>, collisions: u64) -> [f64; 2] {
     let bodies = world.bodies();
     let count = bodies.len();

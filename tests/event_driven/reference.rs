@@ -1,5 +1,5 @@
 //! The event-driven engine as a program of a page: at every event all pairs, all
-//! their images and all features are tried anew. No cells, no calendar, nothing
+//! their images and all features are tried again. No cells, no calendar, nothing
 //! kept but the flights.
 
 use carom::bodies::PerBody;
@@ -17,7 +17,7 @@ use carom::vec3::Vec3;
 /// What a ball has met last.
 #[derive(Clone, Copy, PartialEq)]
 enum Met {
-    Nobody,
+    Nothing,
     Ball(usize),
     Feature(usize),
 }
@@ -91,7 +91,7 @@ impl<'a, T: Real> Reference<'a, T> {
             since: T::ZERO,
             radius: bodies.radius.of(k),
             spin: bodies.spin_of(k),
-            last: Met::Nobody,
+            last: Met::Nothing,
         };
         let parts =
             if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
@@ -303,7 +303,7 @@ impl<'a, T: Real> Reference<'a, T> {
         }
     }
 
-    /// Where a period of time begins every flight starts anew. It is the power
+    /// Where a period of time begins every flight starts again. It is the power
     /// of two below the time for eight mean distances at the mean speed.
     fn begin_period(&mut self, end: T) {
         for k in 0..self.balls.len() {

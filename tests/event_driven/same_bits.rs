@@ -22,7 +22,7 @@ fn story<T: Compiled>(scene: Scene<T>, lanes: Lanes, end: f64) -> (Vec<Event<T>>
     (events, state_hash(&world.bodies()), is_stalled)
 }
 
-/// Compares the first so many events of a scene.
+/// Compares the first events of a scene.
 fn paths_agree<T: Compiled>(scene: &Scene<T>, most: u64) -> usize {
     let mut first = EventDriven::with_execution(scene.clone(), FAST).unwrap();
     // One that stalls does so on all paths.

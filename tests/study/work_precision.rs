@@ -1,4 +1,4 @@
-//! Run time against error: the orders that theory says, and what is told where
+//! Run time against error: the orders that theory says, and what is said where
 //! there is nothing to tell.
 
 use carom::engine::Lanes;
@@ -53,7 +53,7 @@ mass = [1.0, 3.0]
 temperature = 1.0
 "#;
 
-/// A fluid that nobody can foretell for long.
+/// A fluid that no method can foretell for long.
 const FLUID: &str = r#"
 duration = 20.0
 periodic = "cube"
@@ -141,7 +141,7 @@ fn impacts_within_a_step_are_better_by_their_order() {
             assert!(last.energy.abs() < 1e-14);
         }
     }
-    // Whoever wants digits is told to take what is exact.
+    // The advice for digits is to take what is exact.
     let (bound, best) = report.advice.last().unwrap();
     let Family { precision, stepping } = best.method.family();
     let exact = [None, Some((Integrator::VelocityVerlet, Impact::SubStep))];
@@ -155,7 +155,7 @@ fn past_predictability_there_is_no_figure() {
     assert!(report.time < lost && lost < 20.0);
     assert!(report.notes.iter().any(|note| note.starts_with("Chaotic")));
 
-    // Who asks for more is told that nothing is left of the trajectories.
+    // Asked for more, it says that nothing is left of the trajectories.
     let file = scene(FLUID);
     let asked = Asked {
         duration: file.duration,

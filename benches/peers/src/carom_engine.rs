@@ -110,7 +110,7 @@ fn bodies<T: Compiled>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
 
 struct CaromWorld<T: Compiled> {
     engine: Stepped<T>,
-    /// All bodies after the last step, once somebody has asked for one.
+    /// All bodies after the last step, once one has been asked for.
     bodies: OnceCell<Bodies<T>>,
 }
 

@@ -95,7 +95,7 @@ pub trait Peer {
     }
 
     /// Time of bodies that move and spin and never meet. With `detection` the
-    /// engine has to find that out, without it is told so.
+    /// engine has to find that out, without being given it.
     fn free_flight(
         &self,
         bodies: usize,

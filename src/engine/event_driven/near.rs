@@ -21,7 +21,7 @@ const ENTRIES_BESIDES: usize = 1 << 16;
 /// How many cells are looked at for each such entry, before all share one list.
 const LOOKS: usize = 8;
 
-/// By so many binary digits fewer tell lists apart when more cells share one:
+/// The binary digits by which fewer tell lists apart when more cells share one:
 /// twice as many cells along each side.
 const SHARED_STEP: u32 = 3;
 
@@ -33,7 +33,7 @@ const ALL: u32 = 30;
 pub(super) struct Near {
     /// Those near everywhere.
     everywhere: Vec<Image>,
-    /// The number of a cell's list is its own without so many last digits.
+    /// The number of a cell's list is its own without this number of last digits.
     shared: u32,
     /// Where each list starts in `images`.
     starts: Vec<u32>,

@@ -3,7 +3,7 @@
 //! A cell's neighbours are found by its three indices, each taken modulo the
 //! grid's size. In a periodic box that is the geometry itself. In open space it
 //! lets a grid of about as many cells as bodies serve bodies anywhere: one far
-//! outside only shares a cell with strangers, whom the distance test turns away.
+//! outside only shares a cell with strangers, which the distance test turns away.
 
 use core::ops::Range;
 

@@ -8,7 +8,7 @@ pub(super) const MOST_CELLS: i64 = 1 << 20;
 /// No cell.
 pub(super) const NOWHERE: u32 = u32::MAX;
 
-/// From so many cells on, the nearest image of a body in a neighbouring cell is
+/// From this number of cells on, the nearest image of a body in a neighbouring cell is
 /// the only one that is near.
 pub(super) const WIDE: i32 = 5;
 

@@ -7,7 +7,7 @@ use crate::bodies::Columns3;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// From so many bodies on a few of them far away are left out of account.
+/// From this number of bodies on, a few of them far away are left out of account.
 const CROWD: usize = 64;
 
 /// What part of the bodies that is, on either side.

@@ -158,7 +158,7 @@ impl Drift {
     }
 }
 
-/// Which of so many points in time an exponent is fitted to.
+/// Which of a number of points in time an exponent is fitted to.
 fn fitted(len: usize) -> Vec<usize> {
     let last = len.saturating_sub(1) as f64;
     let indices = core::iter::successors(Some(last), |index| Some(index / APART));

@@ -87,7 +87,7 @@ pub struct Comparer {
 }
 
 impl Comparer {
-    /// For so many bodies.
+    /// For this number of bodies.
     #[must_use]
     pub fn new(bodies: usize) -> Self {
         Self {
@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn order_and_partners_differ_apart() {
         let should = [pair(1.0, 0, 1), pair(1.1, 2, 3), pair(2.0, 0, 2), pair(3.0, 1, 3)];
-        // The first two interchanged, which concerns nobody; then others meet.
+        // The first two interchanged, which concerns no body; then others meet.
         let is = [should[1], should[0], should[2], pair(3.0, 1, 2)];
         let mut comparer = Comparer::new(4);
         comparer.compare(&should[..3], &is[..1]);

@@ -73,7 +73,7 @@ pub struct SeriesRow {
     pub f32_energy: Option<f64>,
     /// The same in `f64`.
     pub f64_energy: Option<f64>,
-    /// What nobody gave of the momentum in `f32`, of the sum of all momenta.
+    /// What no impulse gave of the momentum in `f32`, of the sum of all momenta.
     pub f32_momentum: Option<f64>,
     /// The same in `f64`.
     pub f64_momentum: Option<f64>,

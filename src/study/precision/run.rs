@@ -164,7 +164,7 @@ impl<T: Compiled> Run<T> {
         }
     }
 
-    /// Seconds that the whole way should take, from so many of its beginning.
+    /// Seconds that the whole way should take, from a number of seconds of its beginning.
     pub(super) fn probe(&mut self, longest: f64) -> Result<f64, StudyError> {
         Ok(outlook(&mut self.world, self.course, longest)?)
     }

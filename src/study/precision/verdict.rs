@@ -6,7 +6,7 @@ use super::drift::Law;
 use super::report::{PrecisionReport, far, short};
 use crate::scene::EngineKind;
 
-/// From so many standard errors on an average is another one: the errors of two
+/// From this number of standard errors on an average is another one: the errors of two
 /// runs, from a few blocks each, which do not know them well.
 const DIFFERENT: f64 = 6.0;
 

@@ -194,7 +194,7 @@ impl Task<'_> {
         }
     }
 
-    /// So many steps, or collisions.
+    /// A number of steps, or of collisions.
     fn advance<T: Real>(&self, world: &mut World<T>, work: u64) -> Result<(), StudyError> {
         match world {
             World::Stepped(world) => world.advance_steps(work),

@@ -31,7 +31,7 @@ pub struct ScalingReport {
     pub differing: Vec<String>,
 }
 
-/// The law that time follows in one precision on so many threads.
+/// The law that time follows in one precision on a number of threads.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Power {
     /// The precision's name.
@@ -104,7 +104,7 @@ impl ScalingReport {
     }
 }
 
-/// The variants of all sizes in a precision on so many threads.
+/// The variants of all sizes in a precision on a number of threads.
 fn sweep<'a>(
     settings: &'a Settings,
     points: &'a [Measured],

@@ -102,7 +102,7 @@ pub struct Case {
     pub name: &'static str,
     /// What it is about.
     pub title: &'static str,
-    /// What should hold, and by whom.
+    /// What should hold, and its source.
     pub law: &'static str,
     pub(super) trials: fn(Extent) -> Vec<Trial>,
     /// What becomes of the findings of all trials.

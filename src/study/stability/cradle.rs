@@ -144,7 +144,7 @@ impl BallRow {
         let mut hit_with = T::Judge::ONE;
         let mut speeds = Vec::new();
         for k in 0..self.balls {
-            // Of the last ones nobody is hit any more.
+            // None of the last ones is hit any more.
             let next = masses.get(k + self.moving).copied();
             let (kept, given) = match next {
                 Some(next) => {

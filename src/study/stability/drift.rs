@@ -162,7 +162,7 @@ fn figures(precision: Precision, name: &str, runs: &[&Curve]) -> Vec<Figure> {
 }
 
 /// A chart for each diameter, in units of the precision's ε, with the two laws
-/// that are to be told apart.
+/// that are to be kept apart.
 fn picture(curves: &[Curve]) -> Picture {
     let starts = curves.iter().filter_map(|curve| curve.points.first());
     let starts: Vec<(f64, f64)> = starts.copied().collect();

@@ -33,13 +33,13 @@ fn trials(extent: Extent) -> Vec<Trial> {
     trials
 }
 
-/// Whether a place so many powers of ten of diameters away is uncertain by more
+/// Whether a position this number of powers of ten of diameters away is uncertain by more
 /// than a hundredth of one.
 fn is_lost<T: Studied>(power: i32) -> bool {
     T::EPSILON.to_f64() * 10.0_f64.powi(power) > 0.01
 }
 
-/// What is told where the scene cannot even be built.
+/// What is shown where the scene cannot even be built.
 fn lost<T: Studied>(name: String, bound: f64, unit: &str) -> Figure {
     Figure::at_most(T::PRECISION, name, f64::NAN, bound, unit).beyond_precision()
 }

@@ -15,9 +15,9 @@ pub enum Verdict {
     Holds,
     /// It is not.
     Deviates,
-    /// The precision has too few digits for it, as theory says: told, not judged.
+    /// The precision has too few digits for it, as theory says: shown, not judged.
     Limit,
-    /// Of another method, to compare with: told, not judged.
+    /// Of another method, to compare with: shown, not judged.
     Compared,
 }
 

@@ -46,7 +46,7 @@ pub(super) fn rounds_alike<T: Studied>(part: f64) -> bool {
 /// How often one looks for overlaps.
 const LOOKS: u64 = 16;
 
-/// Runs a gas in no field for so many collisions. No coordinate is above
+/// Runs a gas in no field for a number of collisions. No coordinate is above
 /// `extent`.
 pub(super) fn run<T: Studied>(
     scene: Scene<T>,

@@ -179,7 +179,7 @@ fn rows(figures: &[Figure]) -> Vec<(&str, &str, [Option<&Figure>; 2])> {
     rows
 }
 
-/// A text in lines of at most so many letters.
+/// A text in lines of at most `width` letters.
 fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -106,7 +106,7 @@ fn regular<T: Studied>(surface: Surface, bounces: u64) -> Trial {
     })
 }
 
-/// How far off the start is, root mean square over the bodies, after so many
+/// How far off the start is, root mean square over the bodies, after a number of
 /// collisions in all and as long back, length.
 fn way_off<T: Studied>(scene: &Scene<T>, collisions: u64) -> Result<f64, StudyError> {
     let mut world = EventDriven::new(scene.clone())?;

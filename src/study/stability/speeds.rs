@@ -55,7 +55,7 @@ fn scaled<T: Studied>(power: i32, surface: Surface, gravity: f64, collisions: u6
     })
 }
 
-/// A gas at speeds of 2^power after so many collisions.
+/// A gas at speeds of 2^power after a number of collisions.
 fn run<T: Studied>(
     surface: Surface,
     gravity: f64,

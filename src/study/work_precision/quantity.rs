@@ -49,7 +49,7 @@ impl Quantity {
         }
     }
 
-    /// In what it is told.
+    /// Its unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {

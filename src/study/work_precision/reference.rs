@@ -1,5 +1,5 @@
 //! Reference: what the bodies of a scene should do, and how long that can be
-//! told.
+//! known.
 
 use crate::engine::{Compiled, Execution, World};
 use crate::real::{DoubleDouble, Real};
@@ -123,7 +123,7 @@ impl Horizon {
     }
 }
 
-/// The length that decides who meets whom: the greatest radius; of points, the
+/// The length that decides which bodies meet: the greatest radius; of points, the
 /// greatest way from their middle.
 pub(super) fn length_scale<T: Real>(scene: &Scene<T>) -> f64 {
     let bodies = &scene.bodies;

@@ -66,7 +66,7 @@ impl WorkPrecisionReport {
             notes: sweep.notes.clone(),
             judged: sweep.times.len().saturating_sub(1),
         };
-        // The last time at which anything is to be told.
+        // The last time at which anything can be said.
         while report.judged > 0 && report.results(report.judged, quantity).is_empty() {
             report.judged -= 1;
         }

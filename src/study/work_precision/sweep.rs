@@ -57,14 +57,14 @@ pub struct Sweep {
 /// The most lengths of a step, times or runs.
 const MOST: usize = 1000;
 
-/// So many longer and so many shorter steps than the scene's own.
+/// The number of longer and of shorter steps than the scene's own.
 const LADDER: i32 = 3;
 
-/// Each so many times as long as the next. Halved steps would share their ends:
+/// The ratio of each to the next. Halved steps would share their ends:
 /// an impact that falls right behind one would do so again and again.
 const RATIO: f64 = 1.9;
 
-/// The number of steps must be told apart from one more.
+/// The number of steps must differ from one more.
 const MOST_STEPS: f64 = 1e12;
 
 impl Sweep {
