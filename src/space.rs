@@ -9,6 +9,7 @@ pub(crate) mod neighbours;
 mod noise;
 mod parts;
 mod periodic;
+mod sizes;
 mod tree;
 
 pub use near_pairs::near_pairs;

@@ -25,12 +25,10 @@ use skin::best_skin;
 use crate::bodies::{Columns3, Figure, PerBody, Same, at};
 use crate::lane::Lane;
 use crate::real::Real;
+use crate::space::sizes::{class, classes};
 use crate::space::{FixedParts, OpenSpace, PeriodicBox, Tree};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
-
-/// Each grid takes radii down to half its greatest.
-const MOST_GRIDS: usize = 24;
 
 /// What the first search goes by: bodies in a diameter cubed, and the widest
 /// skin in diameters.
@@ -163,7 +161,7 @@ impl<T: Real> BroadPhase<T> {
 
         let mut class_counts = vec![0_usize; self.reaches.len()];
         for k in 0..len {
-            class_counts[self.class(surveyed.radius.of(k))] += 1;
+            class_counts[class(&self.reaches, surveyed.radius.of(k))] += 1;
         }
         self.grids.clear();
         let mut first = 0;
@@ -184,7 +182,7 @@ impl<T: Real> BroadPhase<T> {
         workers.each(&mut chunks, |(chunk, ranks)| {
             for (k, rank) in ranks.iter_mut().enumerate() {
                 let k = *chunk * RANKED + k;
-                let (grid, first) = &self.grids[self.class(surveyed.radius.of(k))];
+                let (grid, first) = &self.grids[class(&self.reaches, surveyed.radius.of(k))];
                 *rank = first + grid.rank(grid.cell(at(surveyed.position, k)));
             }
         });
@@ -281,16 +279,6 @@ impl<T: Real> BroadPhase<T> {
         });
     }
 
-    /// The grid for a radius.
-    #[inline(always)]
-    fn class(&self, radius: T) -> usize {
-        let mut class = 0;
-        while class + 1 < self.reaches.len() && radius <= self.reaches[class + 1] {
-            class += 1;
-        }
-        class
-    }
-
     /// The bytes that the search works in.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -299,20 +287,6 @@ impl<T: Real> BroadPhase<T> {
             + size_of_val(self.order.bodies.as_slice())
             + self.tree.bytes()
     }
-}
-
-/// The greatest radius of each occupied factor of two, coarsest first.
-fn classes<T: Real>(radii: &[T]) -> Vec<T> {
-    let mut sorted = radii.to_vec();
-    sorted.sort_unstable_by(|a, b| b.partial_cmp(a).unwrap_or(core::cmp::Ordering::Equal));
-    let mut reaches: Vec<T> = Vec::new();
-    for radius in sorted {
-        let is_smaller = reaches.last().is_none_or(|&last| radius + radius < last);
-        if is_smaller && reaches.len() < MOST_GRIDS {
-            reaches.push(radius);
-        }
-    }
-    reaches
 }
 
 /// The corners of the smallest box around all points.

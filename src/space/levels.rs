@@ -14,6 +14,7 @@
 //! level (levels: Ogarko and Luding, *Computer Physics Communications* 183, 2012).
 
 use super::cells::{Cells, Ends, Region};
+use super::sizes;
 use crate::bodies::PerBody;
 use crate::real::Real;
 
@@ -82,14 +83,11 @@ impl<T: Real> Levels<T> {
     fn several(region: Region<T>, radii: &[T], coarsest: &Cells<T>, parts: usize) -> Option<Self> {
         // Bodies of one factor of two in the radius: the greatest and the least of
         // them, and how many binary digits finer their grid can be.
-        let mut classes: Vec<(T, T, u32)> = Vec::new();
-        let mut sorted = radii.to_vec();
-        sorted.sort_unstable_by(|a, b| b.partial_cmp(a).unwrap_or(core::cmp::Ordering::Equal));
-        for radius in sorted {
-            match classes.last_mut() {
-                Some((greatest, least, _)) if radius + radius > *greatest => *least = radius,
-                _ => classes.push((radius, radius, 0)),
-            }
+        let sizes = sizes::classes(radii);
+        let mut classes: Vec<(T, T, u32)> = sizes.iter().map(|&size| (size, size, 0)).collect();
+        for &radius in radii {
+            let least = &mut classes[sizes::class(&sizes, radius)].1;
+            *least = least.lesser(radius);
         }
         let alone: Vec<[i32; 3]> = classes
             .iter()
