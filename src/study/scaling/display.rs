@@ -54,7 +54,7 @@ impl ScalingReport {
         };
         format!(
             "Medians of {}, each with its quartiles; all variants of a size were run in turn.\n\
-             {speed_up}Set-up: making the scene and its world.\n\
+             {speed_up}Set-up: making the scene and its world, ms. B/body: bytes of the engine.\n\
              Peak: of the process with one world, the making of its scene included.\n",
             counted(*runs as u64, "run"),
         )
@@ -62,7 +62,7 @@ impl ScalingReport {
 
     fn times(&self) -> Table {
         let mut table = Table::default();
-        let heading = [self.unit(), "", "speed-up", "", "set-up ms", "bytes/body", "peak MB"];
+        let heading = [self.unit(), "", "speed-up", "", "set-up", "B/body", "peak MB"];
         table.row("", heading.map(str::to_owned));
         for rows in &self.points {
             if let Some(first) = rows.first() {
