@@ -40,10 +40,12 @@ impl Row {
     }
 }
 
-/// The grids, coarsest first.
+/// The grids. A scene of one grid finds it without a detour.
 #[derive(Debug)]
 pub(crate) struct Levels<T> {
-    levels: Vec<Level<T>>,
+    finest: Level<T>,
+    /// The others, coarsest first.
+    coarser: Vec<Level<T>>,
 }
 
 #[derive(Debug)]
@@ -75,7 +77,7 @@ impl<T: Real> Levels<T> {
 
     fn one(cells: Cells<T>, greatest: T) -> Self {
         let level = Level { cells, greatest, least: T::ZERO, shift: 0, shells: Vec::new() };
-        Self { levels: vec![level] }
+        Self { finest: level, coarser: Vec::new() }
     }
 
     /// Levels upon a grid for the greatest bodies; `None` if there is room for one
@@ -125,72 +127,86 @@ impl<T: Real> Levels<T> {
                 levels[coarse].shells.push(shell);
             }
         }
-        Some(Self { levels })
+        Some(Self { finest: levels.pop()?, coarser: levels })
     }
 
     /// The finest grid, in whose coordinates cells are named.
     #[inline(always)]
     pub fn finest(&self) -> &Cells<T> {
-        &self.levels[self.levels.len() - 1].cells
+        &self.finest.cells
     }
 
     /// The grid of the greatest bodies.
     pub fn coarsest(&self) -> &Cells<T> {
-        &self.levels[0].cells
+        &self.level(0).cells
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Level<T>> {
+        self.coarser.iter().chain([&self.finest])
+    }
+
+    #[inline(always)]
+    fn level(&self, level: usize) -> &Level<T> {
+        self.coarser.get(level).unwrap_or(&self.finest)
+    }
+
+    #[inline(always)]
+    fn level_mut(&mut self, level: usize) -> &mut Level<T> {
+        self.coarser.get_mut(level).unwrap_or(&mut self.finest)
     }
 
     /// How many levels there are.
     #[inline(always)]
     pub fn len(&self) -> usize {
-        self.levels.len()
+        self.coarser.len() + 1
     }
 
     /// The level of a body.
     #[inline(always)]
     pub fn level_of(&self, radius: T) -> usize {
-        let finer = self.levels[1..].iter().take_while(|level| radius <= level.greatest);
-        finer.count()
+        (1..self.len()).take_while(|&level| radius <= self.level(level).greatest).count()
     }
 
     /// A cell in the coordinates of a level.
     #[inline(always)]
     pub fn cell_at(&self, level: usize, cell: [i32; 3]) -> [i32; 3] {
-        cell.map(|c| c >> self.levels[level].shift)
+        cell.map(|c| c >> self.level(level).shift)
     }
 
     /// The grid of a level.
     #[inline(always)]
     pub fn at(&self, level: usize) -> &Cells<T> {
-        &self.levels[level].cells
+        &self.level(level).cells
     }
 
     /// Where bodies of the level `fine` can touch one of the level `coarse`.
     pub fn shell(&self, coarse: usize, fine: usize) -> &[Row] {
-        &self.levels[coarse].shells[fine - coarse - 1]
+        &self.level(coarse).shells[fine - coarse - 1]
     }
 
     /// Puts a body of a level into a cell of the finest grid.
     #[inline(always)]
     pub fn insert(&mut self, level: usize, cell: [i32; 3], slot: u32) {
         let cell = self.cell_at(level, cell);
-        self.levels[level].cells.insert(cell, slot);
+        self.level_mut(level).cells.insert(cell, slot);
     }
 
     /// Takes a body of a level out of a cell of the finest grid.
     #[inline(always)]
     pub fn remove(&mut self, level: usize, cell: [i32; 3], slot: u32) {
         let cell = self.cell_at(level, cell);
-        self.levels[level].cells.remove(cell, slot);
+        self.level_mut(level).cells.remove(cell, slot);
     }
 
     /// Takes all bodies out.
     pub fn clear(&mut self) {
-        self.levels.iter_mut().for_each(|level| level.cells.clear());
+        self.finest.cells.clear();
+        self.coarser.iter_mut().for_each(|level| level.cells.clear());
     }
 
     /// How many slots a buffer for the bodies found must have.
     pub fn most(&self) -> usize {
-        self.levels.iter().map(|level| level.cells.most()).max().unwrap_or(0)
+        self.all().map(|level| level.cells.most()).max().unwrap_or(0)
     }
 
     /// The bytes that the grids hold.
@@ -199,7 +215,7 @@ impl<T: Real> Levels<T> {
             let rows: usize = level.shells.iter().map(Vec::capacity).sum();
             level.cells.bytes() + rows * size_of::<Row>()
         };
-        self.levels.iter().map(bytes).sum()
+        self.all().map(bytes).sum()
     }
 }
 

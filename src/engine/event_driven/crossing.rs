@@ -87,7 +87,8 @@ pub(super) fn cross<T: Real>(
     let cell = agenda.cell;
     let level = region.level_of(slot as usize);
     let is_new = |region: &Region<T>, level: usize| {
-        region.cells.cell_at(level, from) != region.cells.cell_at(level, cell)
+        region.cells.len() == 1
+            || region.cells.cell_at(level, from) != region.cells.cell_at(level, cell)
     };
     if setting.plan.has_pairs && is_new(region, level) {
         region.cells.remove(level, from, slot);

@@ -35,6 +35,11 @@ pub(super) fn search<T: Real>(
         search_features(setting, region, slot);
     }
     if setting.plan.has_pairs {
+        if region.cells.len() == 1 {
+            let len = region.cells.finest().around(cell, &mut region.found);
+            (setting.search_bodies)(setting, region, effort, slot, len, now);
+            return;
+        }
         let level = region.level_of(slot as usize);
         let own = region.cells.cell_at(level, cell);
         let len = region.cells.at(level).around(own, &mut region.found);

@@ -349,11 +349,18 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         P: FixedParts<T> + ?Sized,
     {
         for start in chunk.bodies.clone().step_by(L::WIDTH) {
-            let bodies = start..chunk.bodies.end.min(start + L::WIDTH);
-            let near = |image: &Vec3<T>| self.near_part::<L, P>(parts, part, &bodies, *image);
-            let mut bits = images.iter().map(near).fold(0, |all, bits| all | bits);
+            let center = self.points::<L>(start);
+            let radius = self.radius.load_tail::<L>(start);
+            let is_near = |image: &Vec3<T>| {
+                let gap = parts.gap(part as usize, center + Vec3::splat(*image), radius);
+                gap.lt(L::splat(self.skin)).bits()
+            };
+            let mut bits = images.iter().map(is_near).fold(0, |all, bits| all | bits);
             while bits != 0 {
-                chunk.at_parts.push(start as u32 + bits.trailing_zeros());
+                let body = start as u32 + bits.trailing_zeros();
+                if (body as usize) < chunk.bodies.end {
+                    chunk.at_parts.push(body);
+                }
                 bits &= bits - 1;
             }
         }
