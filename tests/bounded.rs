@@ -74,6 +74,21 @@ fn few_in_a_large_periodic_box() {
 }
 
 #[test]
+fn a_crowd_in_a_corner_of_a_large_box() {
+    let count = 10_000;
+    for side in [1e3, 1e5, 1e9] {
+        let container = Cuboid::container([0.0; 3], [side; 3]);
+        let periodic = PeriodicBox::new([0.0; 3], [side; 3]);
+        let crowd =
+            |upper| Spheres::random(count).radius(0.5).temperature(1.0).within([0.0; 3], upper);
+        for upper in [[30.0; 3], [300.0, 300.0, 1.5]] {
+            run(10_000, 0.2, scene::<f64>().surroundings(container).spheres(crowd(upper)));
+            run(10_000, 0.2, scene::<f64>().periodic(periodic).spheres(crowd(upper)));
+        }
+    }
+}
+
+#[test]
 fn a_small_ball_at_a_large_fixed_sphere() {
     for (radius, duration) in [(0.01, 1.0), (1e-6, 1.0)] {
         let ball = Sphere::new([-10.5, 0.0, 0.0]).radius(radius).velocity([1.0, 0.0, 0.0]);

@@ -141,7 +141,7 @@ impl<T: Real> BroadPhase<T> {
     }
 
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the
-    /// order that is returned is the one to be put at place `k`.
+    /// order that is returned is the one to be put into slot `k`.
     pub fn sort<P: Sync + ?Sized>(
         &mut self,
         surveyed: &Surveyed<'_, T, P>,

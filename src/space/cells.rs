@@ -1,17 +1,17 @@
 //! Cells: what is near what.
 //!
 //! Space is cut into cells no smaller than the greatest diameter, so that two
-//! bodies can only touch if their cells are neighbours. Who is in a cell is
-//! kept up as bodies cross from one to the next.
+//! bodies can only touch if their cells are neighbours. Which bodies are in a cell
+//! is kept up as they cross from one to the next.
 
 mod axis;
-mod region;
+mod span;
 
 use std::collections::BTreeMap;
 
 pub(crate) use axis::Ends;
 use axis::{Axis, BLOCK, NOWHERE, WIDE, count, number, numbers};
-pub(crate) use region::Region;
+pub(crate) use span::Span;
 
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -35,6 +35,9 @@ const CELLS_BESIDES: u64 = 1 << 12;
 /// As many cells have numbers that three parts add up to without overflow.
 const MOST_NUMBERS: u64 = 1 << 30;
 
+/// The most coordinates of cells along an axis, with some to spare in an `i32`.
+const MOST_COORDINATES: i32 = 1 << 29;
+
 /// Bodies that a block of a cell has room for, and their count.
 const STRIDE: usize = 8;
 
@@ -45,9 +48,9 @@ pub(crate) struct Cells<T> {
     margin: Vec3<T>,
     /// Blocks of a cell.
     blocks: usize,
-    /// The places of a cell's bodies, in as many blocks as the fullest cell
+    /// The slots of a cell's bodies, in as many blocks as the fullest cell
     /// needs; the last number of the first one is their count.
-    places: Vec<[u32; STRIDE]>,
+    slots: Vec<[u32; STRIDE]>,
     /// The number of blocks up to which all cells grow with the fullest one.
     most_blocks: usize,
     /// The bodies that are more than a cell's blocks have room for.
@@ -59,43 +62,42 @@ pub(crate) struct Cells<T> {
 impl<T: Real> Cells<T> {
     /// A grid of empty cells that suits `len` bodies among `parts` bounded fixed
     /// parts, which touch at distances of up to `reach`.
-    pub fn fitting(region: Region<T>, reach: T, len: usize, parts: usize) -> Self {
-        let distance = region.mean_distance(reach, len + parts);
+    pub fn fitting(span: Span<T>, reach: T, len: usize, parts: usize) -> Self {
+        let distance = span.mean_distance(reach, len + parts);
         let is_far = distance > FAR_APART * reach.to_f64();
         let wanted = if is_far { T::from_f64(FAR_SIDE * distance) } else { reach };
         let most = CELLS_BESIDES + CELLS_EACH * (len + parts) as u64;
-        Self::new(region, reach, wanted, most.min(MOST_NUMBERS))
+        Self::new(span, reach, wanted, most.min(MOST_NUMBERS))
     }
 
     /// A grid of at most `most` empty cells with sides of at least `reach`, of
     /// `wanted` if that is more.
-    fn new(region: Region<T>, reach: T, wanted: T, most: u64) -> Self {
-        let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
-        let least = least_side(region, reach);
-        let extent: [T; 3] = core::array::from_fn(|k| upper[k] - lower[k]);
+    fn new(span: Span<T>, reach: T, wanted: T, most: u64) -> Self {
+        let least = least_side(span, reach);
+        let extent = span.part();
         let mut wanted = wanted.greater(least);
         let counts = loop {
-            let counts = extent.map(|extent| count(extent, least, wanted, region.ends));
+            let counts = extent.map(|extent| count(extent, least, wanted, span.ends));
             // No extent has more than its few least cells once it is this wide.
             if numbers(counts) <= most || !wanted.is_finite() {
                 break counts;
             }
             wanted = wanted * T::ratio(5, 4);
         };
-        Self::of_counts(region, counts, most)
+        Self::of_counts(span, counts, most)
     }
 
-    /// A grid of empty cells, `counts` along each axis. It grows to at most twice
-    /// `most` blocks.
-    fn of_counts(region: Region<T>, counts: [i32; 3], most: u64) -> Self {
-        let [lower, upper] = [region.lower, region.upper].map(Vec3::to_array);
-        let extent: [T; 3] = core::array::from_fn(|k| upper[k] - lower[k]);
-        let rounding = rounding(region);
+    /// A grid of empty cells, `counts` of them in memory along each axis. It grows to
+    /// at most twice `most` blocks.
+    fn of_counts(span: Span<T>, counts: [i32; 3], most: u64) -> Self {
+        let (lower, extent) = (span.lower.to_array(), span.part());
+        let rounding = rounding(span);
         let mut axes = core::array::from_fn(|k| Axis {
             lower: lower[k],
             side: extent[k] / T::whole(counts[k]),
-            count: counts[k],
-            ends: region.ends,
+            count: counts[k].saturating_mul(span.folds[k]),
+            kept: counts[k],
+            ends: span.ends,
             parts: Vec::new(),
         });
         let numbers = number(&mut axes);
@@ -104,7 +106,7 @@ impl<T: Real> Cells<T> {
             axes,
             margin: Vec3::from(margins),
             blocks: 1,
-            places: vec![[0; STRIDE]; numbers],
+            slots: vec![[0; STRIDE]; numbers],
             most_blocks: 2 * most as usize,
             spilled: BTreeMap::new(),
             fullest: 0,
@@ -112,18 +114,23 @@ impl<T: Real> Cells<T> {
     }
 
     /// An empty grid of the same space with `counts` cells along each axis.
-    pub fn divided(&self, region: Region<T>, counts: [i32; 3]) -> Self {
-        Self::of_counts(region, counts, self.most_blocks as u64 / 2)
+    pub fn divided(&self, span: Span<T>, counts: [i32; 3]) -> Self {
+        Self::of_counts(span, counts, self.most_blocks as u64 / 2)
     }
 
-    /// Cells along each axis.
+    /// Cells in memory along each axis.
     pub fn counts(&self) -> [i32; 3] {
-        self.axes.each_ref().map(|axis| axis.count)
+        self.axes.each_ref().map(|axis| axis.kept)
     }
 
-    /// How space is bounded.
-    pub fn ends(&self) -> Ends {
-        self.axes[0].ends
+    /// Whether the last cell in memory along an axis is a neighbour of the first.
+    pub fn closes(&self, axis: usize) -> bool {
+        self.axes[axis].closes()
+    }
+
+    /// Whether cells far apart share their memory.
+    pub fn is_folded(&self) -> bool {
+        self.axes.iter().any(|axis| axis.ends == Ends::Open || axis.kept < axis.count)
     }
 
     /// The sides of a cell and how far beyond them a body counts as inside, length.
@@ -140,13 +147,13 @@ impl<T: Real> Cells<T> {
 
     /// Whether every cell neighbours every other one along an axis.
     fn are_all_neighbours(&self, axis: usize) -> bool {
-        self.axes[axis].ends == Ends::Joined && self.axes[axis].count < 4
+        self.axes[axis].closes() && self.axes[axis].kept < 4
     }
 
-    /// Whether all cells of a region have coordinates, with some to spare.
-    pub fn can_number(&self, region: &Region<T>) -> bool {
-        let extent = (region.upper - region.lower).to_array();
-        let most = T::whole(1 << 27);
+    /// Whether all cells of a span have coordinates, with some to spare.
+    pub fn can_number(&self, span: &Span<T>) -> bool {
+        let extent = (span.upper - span.lower).to_array();
+        let most = T::whole(MOST_COORDINATES);
         (0..3).all(|k| extent[k] <= self.axes[k].side * most)
     }
 
@@ -189,7 +196,7 @@ impl<T: Real> Cells<T> {
     /// within `bounds`.
     pub fn each_in(&self, bounds: [Vec3<T>; 2], radius: T, mut visit: impl FnMut(u32)) {
         let [lower, upper] = self.cells_at(bounds, radius);
-        let span = |k: usize| lower[k]..=upper[k].min(lower[k] + self.axes[k].count - 1);
+        let span = |k: usize| lower[k]..=upper[k].min(lower[k] + self.axes[k].kept - 1);
         for z in span(2) {
             for y in span(1) {
                 for x in span(0) {
@@ -258,7 +265,7 @@ impl<T: Real> Cells<T> {
         }
     }
 
-    /// The corners of a cell's inside, with the margin. No body leaves a region
+    /// The corners of a cell's inside, with the margin. No body leaves a span
     /// that is closed: there it ends farther away than any body flies in a period,
     /// and not so far that its product with an acceleration overflows.
     #[inline(always)]
@@ -343,7 +350,7 @@ impl<T: Real> Cells<T> {
             return self.read_blocks(number, found, len);
         }
         // A whole block is copied faster than a few numbers are counted.
-        let block = &self.places[number as usize];
+        let block = &self.slots[number as usize];
         found[len..len + STRIDE].copy_from_slice(block);
         len + block[STRIDE - 1] as usize
     }
@@ -351,12 +358,12 @@ impl<T: Real> Cells<T> {
     #[inline(never)]
     fn read_blocks(&self, number: u32, found: &mut [u32], len: usize) -> usize {
         let start = number as usize * self.blocks;
-        let places = self.places[start..start + self.blocks].as_flattened();
-        let count = places[STRIDE - 1] as usize;
+        let slots = self.slots[start..start + self.blocks].as_flattened();
+        let count = slots[STRIDE - 1] as usize;
         let within = count.min(self.room());
         let first = within.min(STRIDE - 1);
-        found[len..len + first].copy_from_slice(&places[..first]);
-        found[len + first..len + within].copy_from_slice(&places[STRIDE..STRIDE + within - first]);
+        found[len..len + first].copy_from_slice(&slots[..first]);
+        found[len + first..len + within].copy_from_slice(&slots[STRIDE..STRIDE + within - first]);
         if count > within
             && let Some(spilled) = self.spilled.get(&number)
         {
@@ -365,12 +372,12 @@ impl<T: Real> Cells<T> {
         len + count
     }
 
-    /// How many places a buffer for [`around`](Cells::around) must have.
+    /// How many slots a buffer for [`around`](Cells::around) must have.
     pub fn most(&self) -> usize {
         (27 * self.most_in_cell()).next_multiple_of(16) + 2 * STRIDE
     }
 
-    /// How many places are written at most to read a cell.
+    /// How many slots are written at most to read a cell.
     pub fn most_in_cell(&self) -> usize {
         (self.blocks * STRIDE).max(self.fullest)
     }
@@ -380,46 +387,46 @@ impl<T: Real> Cells<T> {
         self.blocks * STRIDE - 1
     }
 
-    /// The places of a cell's bodies and their count, as they lie in memory.
-    fn places_in(&mut self, cell: [i32; 3]) -> &mut [u32] {
+    /// The slots of a cell's bodies and their count, as they lie in memory.
+    fn slots_in(&mut self, cell: [i32; 3]) -> &mut [u32] {
         let start = self.number_of(cell) as usize * self.blocks;
-        self.places[start..start + self.blocks].as_flattened_mut()
+        self.slots[start..start + self.blocks].as_flattened_mut()
     }
 
     /// Puts a body into a cell.
-    pub fn insert(&mut self, cell: [i32; 3], place: u32) {
-        let count = self.places_in(cell)[STRIDE - 1] as usize;
+    pub fn insert(&mut self, cell: [i32; 3], slot: u32) {
+        let count = self.slots_in(cell)[STRIDE - 1] as usize;
         if count >= self.room() {
             self.grow();
         }
         if count < self.room() {
-            self.places_in(cell)[slot(count)] = place;
+            self.slots_in(cell)[nth(count)] = slot;
         } else {
-            self.spilled.entry(self.number_of(cell)).or_default().push(place);
+            self.spilled.entry(self.number_of(cell)).or_default().push(slot);
             self.fullest = self.fullest.max(count + 1);
         }
-        self.places_in(cell)[STRIDE - 1] += 1;
+        self.slots_in(cell)[STRIDE - 1] += 1;
     }
 
     /// Takes a body out of a cell.
-    pub fn remove(&mut self, cell: [i32; 3], place: u32) {
+    pub fn remove(&mut self, cell: [i32; 3], slot: u32) {
         let room = self.room();
-        let places = self.places_in(cell);
-        let count = places[STRIDE - 1] as usize;
+        let slots = self.slots_in(cell);
+        let count = slots[STRIDE - 1] as usize;
         if count > room {
-            self.remove_spilled(cell, place);
-        } else if let Some(at) = (0..count).find(|&k| places[slot(k)] == place) {
-            places[slot(at)] = places[slot(count - 1)];
-            places[STRIDE - 1] -= 1;
+            self.remove_spilled(cell, slot);
+        } else if let Some(at) = (0..count).find(|&k| slots[nth(k)] == slot) {
+            slots[nth(at)] = slots[nth(count - 1)];
+            slots[STRIDE - 1] -= 1;
         }
     }
 
     /// Takes a body out of a cell with more bodies than its blocks have room for.
     #[cold]
-    fn remove_spilled(&mut self, cell: [i32; 3], place: u32) {
+    fn remove_spilled(&mut self, cell: [i32; 3], slot: u32) {
         let (number, room) = (self.number_of(cell), self.room());
         let Some(spilled) = self.spilled.get_mut(&number) else { return };
-        let last = if let Some(at) = spilled.iter().position(|&other| other == place) {
+        let last = if let Some(at) = spilled.iter().position(|&other| other == slot) {
             spilled.swap_remove(at);
             None
         } else {
@@ -428,18 +435,18 @@ impl<T: Real> Cells<T> {
         if spilled.is_empty() {
             self.spilled.remove(&number);
         }
-        let places = self.places_in(cell);
+        let slots = self.slots_in(cell);
         if let Some(last) = last
-            && let Some(at) = (0..room).find(|&k| places[slot(k)] == place)
+            && let Some(at) = (0..room).find(|&k| slots[nth(k)] == slot)
         {
-            places[slot(at)] = last;
+            slots[nth(at)] = last;
         }
-        places[STRIDE - 1] -= 1;
+        slots[STRIDE - 1] -= 1;
     }
 
     /// Takes all bodies out.
     pub fn clear(&mut self) {
-        for block in self.places.iter_mut().step_by(self.blocks) {
+        for block in self.slots.iter_mut().step_by(self.blocks) {
             block[STRIDE - 1] = 0;
         }
         self.spilled.clear();
@@ -450,34 +457,34 @@ impl<T: Real> Cells<T> {
     #[cold]
     fn grow(&mut self) {
         let blocks = self.blocks * 2;
-        if self.places.len() * 2 > self.most_blocks {
+        if self.slots.len() * 2 > self.most_blocks {
             return;
         }
-        let mut places = vec![[0; STRIDE]; self.places.len() * 2];
-        for (to, from) in places.chunks_mut(blocks).zip(self.places.chunks(self.blocks)) {
+        let mut slots = vec![[0; STRIDE]; self.slots.len() * 2];
+        for (to, from) in slots.chunks_mut(blocks).zip(self.slots.chunks(self.blocks)) {
             to[..from.len()].copy_from_slice(from);
         }
-        (self.places, self.blocks) = (places, blocks);
+        (self.slots, self.blocks) = (slots, blocks);
     }
 
     /// The bytes that the cells hold.
     pub fn bytes(&self) -> usize {
-        self.places.capacity() * size_of::<[u32; STRIDE]>()
+        self.slots.capacity() * size_of::<[u32; STRIDE]>()
     }
 }
 
 /// The least side of a cell for bodies that touch at distances of up to `reach`.
-fn least_side<T: Real>(region: Region<T>, reach: T) -> T {
-    reach * T::ratio(MARGIN + 4, MARGIN) + rounding(region) * T::whole(4)
+fn least_side<T: Real>(span: Span<T>, reach: T) -> T {
+    reach * T::ratio(MARGIN + 4, MARGIN) + rounding(span) * T::whole(4)
 }
 
 /// By how much positions far from the origin are rounded, for bodies that stop at a
 /// face.
-fn rounding<T: Real>(region: Region<T>) -> T {
-    region.farthest() * T::EPSILON * T::whole(64)
+fn rounding<T: Real>(span: Span<T>) -> T {
+    span.farthest() * T::EPSILON * T::whole(64)
 }
 
-/// Where the body of a number is among a cell's places.
-fn slot(number: usize) -> usize {
+/// Where the body of a number is among a cell's slots.
+fn nth(number: usize) -> usize {
     number + usize::from(number >= STRIDE - 1)
 }

@@ -13,7 +13,7 @@
 //! one's level near its surface, each time it searches or crosses a cell of that
 //! level (levels: Ogarko and Luding, *Computer Physics Communications* 183, 2012).
 
-use super::cells::{Cells, Ends, Region};
+use super::cells::{Cells, Span};
 use super::sizes;
 use crate::bodies::PerBody;
 use crate::real::Real;
@@ -63,13 +63,13 @@ struct Level<T> {
 
 impl<T: Real> Levels<T> {
     /// Empty grids that suit bodies of these radii among `parts` bounded fixed parts.
-    pub fn fitting(region: Region<T>, radius: &PerBody<T>, len: usize, parts: usize) -> Self {
+    pub fn fitting(span: Span<T>, radius: &PerBody<T>, len: usize, parts: usize) -> Self {
         let greatest = radius.greatest();
-        let one = Cells::fitting(region, greatest + greatest, len, parts);
+        let one = Cells::fitting(span, greatest + greatest, len, parts);
         let around =
             27 * len as u64 / one.counts().iter().map(|&count| count as u64).product::<u64>();
         let several = match radius {
-            PerBody::Each(radii) if around > CROWDED => Self::several(region, radii, &one, parts),
+            PerBody::Each(radii) if around > CROWDED => Self::several(span, radii, &one, parts),
             _ => None,
         };
         several.unwrap_or_else(|| Self::one(one, greatest))
@@ -82,7 +82,7 @@ impl<T: Real> Levels<T> {
 
     /// Levels upon a grid for the greatest bodies; `None` if there is room for one
     /// only.
-    fn several(region: Region<T>, radii: &[T], coarsest: &Cells<T>, parts: usize) -> Option<Self> {
+    fn several(span: Span<T>, radii: &[T], coarsest: &Cells<T>, parts: usize) -> Option<Self> {
         // Bodies of one factor of two in the radius: the greatest and the least of
         // them, and how many binary digits finer their grid can be.
         let sizes = sizes::classes(radii);
@@ -93,7 +93,7 @@ impl<T: Real> Levels<T> {
         }
         let alone: Vec<[i32; 3]> = classes
             .iter()
-            .map(|class| Cells::fitting(region, class.0 + class.0, radii.len(), parts).counts())
+            .map(|class| Cells::fitting(span, class.0 + class.0, radii.len(), parts).counts())
             .collect();
         let (base, finest) = nested(coarsest.counts(), *alone.last()?);
         for ((_, _, digits), counts) in classes.iter_mut().zip(&alone) {
@@ -113,7 +113,7 @@ impl<T: Real> Levels<T> {
         let mut levels: Vec<_> = classes
             .iter()
             .map(|&(greatest, least, digits)| Level {
-                cells: coarsest.divided(region, base.map(|count| count << digits)),
+                cells: coarsest.divided(span, base.map(|count| count << digits)),
                 greatest,
                 least,
                 shift: finest - digits,
@@ -246,7 +246,7 @@ fn shell<T: Real>(coarse: &Level<T>, fine: &Level<T>, margin: [f64; 3]) -> Optio
         core::array::from_fn(|k| ((outer + beyond[k]) / sides[k]).floor() as i32 + 1);
     let closes = |k: usize| {
         let count = i64::from(fine.cells.counts()[k]);
-        fine.cells.ends() == Ends::Joined && 2 * i64::from(most[k]) + 1 > count
+        fine.cells.closes(k) && 2 * i64::from(most[k]) + 1 > count
     };
     if (0..3).any(closes) {
         return None;
@@ -284,6 +284,7 @@ fn shell<T: Real>(coarse: &Level<T>, fine: &Level<T>, margin: [f64; 3]) -> Optio
 mod tests {
     use super::*;
     use crate::column::Column;
+    use crate::space::cells::Ends;
     use crate::vec3::Vec3;
 
     fn each(radii: &[f64]) -> PerBody<f64> {
@@ -296,11 +297,11 @@ mod tests {
     #[test]
     fn shells_hold_all_that_touch() {
         let (lower, upper) = (Vec3::ZERO, Vec3::new(50.0, 60.0, 55.0));
-        let region = Region::new(lower, upper, Ends::Joined);
+        let span = Span::new(lower, upper, Ends::Joined);
         let mut radii = vec![0.05_f64; 40_000];
         radii.extend([0.2, 1.5, 4.0, 5.0]);
         let radius = each(&radii);
-        let levels = Levels::fitting(region, &radius, radii.len(), 0);
+        let levels = Levels::fitting(span, &radius, radii.len(), 0);
         assert!(levels.len() > 2, "{}", levels.len());
         let mut state = 1_u64;
         let mut random = || {
@@ -328,9 +329,9 @@ mod tests {
 
     #[test]
     fn bodies_of_one_size_have_one_level() {
-        let region = Region::new(Vec3::ZERO, Vec3::new(9.0, 9.0, 9.0), Ends::Closed);
+        let span = Span::new(Vec3::ZERO, Vec3::new(9.0, 9.0, 9.0), Ends::Closed);
         for radius in [PerBody::Same(0.4), each(&[0.4, 0.2])] {
-            assert_eq!(Levels::fitting(region, &radius, 100, 0).len(), 1);
+            assert_eq!(Levels::fitting(span, &radius, 100, 0).len(), 1);
         }
     }
 }

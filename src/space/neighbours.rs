@@ -1,4 +1,4 @@
-//! Neighbours: which spheres are near a place, found in a time that does not
+//! Neighbours: which spheres are near a point, found in a time that does not
 //! grow with their number.
 //!
 //! Spheres are sorted into levels by size, the greatest first, each half as
@@ -17,7 +17,7 @@ const NONE: u32 = u32::MAX;
 /// The finest level; all spheres smaller than `2⁻³¹` of the greatest share it.
 const FINEST: u32 = 31;
 
-/// A sphere of the table. The place is here and not looked up, to spend one
+/// A sphere of the table. The centre is here and not looked up, to spend one
 /// access to memory on it.
 #[derive(Clone, Copy, Debug)]
 struct Resident {
@@ -27,7 +27,7 @@ struct Resident {
     next: u32,
 }
 
-/// Two spheres in the same place.
+/// Two spheres with the same centre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overlapping {
     /// Who is there already.
@@ -36,7 +36,7 @@ pub(crate) struct Overlapping {
     pub(crate) depth: f64,
 }
 
-/// A table of spheres by place.
+/// A table of spheres by where they are.
 #[derive(Debug)]
 pub(crate) struct Neighbours {
     periodic: Option<PeriodicBox<f64>>,
@@ -80,7 +80,7 @@ impl Neighbours {
         level
     }
 
-    /// A key by which nearby places sort together, for the sake of the cache.
+    /// A key by which points near each other sort together, for the sake of the cache.
     pub(crate) fn order(&self, level: u32, center: [f64; 3]) -> u64 {
         const MASK: u64 = (1 << 21) - 1;
         let [x, y, z] = center.map(|c| self.cell(level, c) as u64 & MASK);
@@ -92,9 +92,9 @@ impl Neighbours {
         let level = self.level(radius);
         let cells = center.map(|c| self.cell(level, c));
         let bucket = self.bucket(level, cells);
-        let place = self.residents.len() as u32;
+        let slot = self.residents.len() as u32;
         self.residents.push(Resident { center, radius, id, next: self.heads[bucket] });
-        self.heads[bucket] = place;
+        self.heads[bucket] = slot;
         self.population[level as usize] += 1;
     }
 
@@ -185,14 +185,14 @@ impl Neighbours {
         radius: f64,
     ) -> Option<Overlapping> {
         for &head in lists {
-            let mut place = head;
-            while place != NONE {
-                let other = &self.residents[place as usize];
+            let mut slot = head;
+            while slot != NONE {
+                let other = &self.residents[slot as usize];
                 let found = self.overlap(other, center, radius);
                 if found.is_some() {
                     return found;
                 }
-                place = other.next;
+                slot = other.next;
             }
         }
         None
@@ -243,7 +243,7 @@ impl Neighbours {
 const FAR: u64 = 1 << 52;
 
 /// The overlap that rounding of coordinates up to `coordinate` can make of a
-/// touch at distance `reach`: some units in the last place, and never more than
+/// touch at distance `reach`: some units in the last digit, and never more than
 /// a hundredth of `reach`, or spheres too far away for their precision would
 /// lie in each other unseen.
 pub(crate) fn tolerance(epsilon: f64, coordinate: f64, reach: f64) -> f64 {

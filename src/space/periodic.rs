@@ -54,7 +54,7 @@ impl<T: Real> Space<T> for OpenSpace {
     }
 }
 
-/// A box whose opposite faces are the same place.
+/// A box whose opposite faces are one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeriodicBox<T> {
     /// The corner with the least coordinates, length.

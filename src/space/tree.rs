@@ -1,9 +1,9 @@
-//! Tree: which of many boxes are near a place.
+//! Tree: which of many boxes are near a point.
 //!
 //! The boxes are halved by number, along the axis in which their centres spread
 //! most, down to a few each: `O(n log n)` to build, whatever their sizes and
 //! distances, and as deep as the logarithm of their number. Nodes lie in one
-//! array in the order in which a search comes to them, each with the place to go
+//! array in the order in which a search comes to them, each with the number to go
 //! on from where it is too far away, so a search needs no stack.
 //!
 //! Boxes and searches are larger by what rounding can do to their coordinates:
@@ -20,7 +20,7 @@ pub type Bounds<T> = [Vec3<T>; 2];
 /// Boxes of a node that is not cut further.
 const LEAF: usize = 4;
 
-/// Units in the last place of the largest coordinate by which a box grows.
+/// Units in the last digit of the largest coordinate by which a box grows.
 const ROUNDING: i32 = 64;
 
 /// A node: the box around all below it.
@@ -273,11 +273,11 @@ mod tests {
             let mut boxes: Vec<Option<Bounds<T>>> = Vec::new();
             let mut searches = Vec::new();
             for k in 0..count {
-                let place = [(); 3].map(|()| far + (10.0 + f64::abs(far) * 1e-3) * noise());
+                let center = [(); 3].map(|()| far + (10.0 + f64::abs(far) * 1e-3) * noise());
                 let half = least * f64::powf(most / least, noise());
-                boxes.push((k % 7 != 3).then(|| cube(place, half)));
-                let place = [(); 3].map(|()| far + (10.0 + f64::abs(far) * 1e-3) * noise());
-                searches.push(cube(place, half));
+                boxes.push((k % 7 != 3).then(|| cube(center, half)));
+                let center = [(); 3].map(|()| far + (10.0 + f64::abs(far) * 1e-3) * noise());
+                searches.push(cube(center, half));
             }
             agrees(&boxes, &searches);
         }

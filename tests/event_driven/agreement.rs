@@ -103,8 +103,10 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
         Kind::PeriodicSolids => random.random_range(6.0..8.0),
         _ => random.random_range(4.0..8.0),
     });
-    // Far off, where positions have four digits less.
-    let lower = if random.random_bool(0.2) { [1e4, -2e4, 0.0] } else { [0.0; 3] };
+    // Far off, where positions have some digits less, and not so far that the engine
+    // computes about an origin of its own.
+    let is_far = random.random_bool(0.2);
+    let lower = if is_far { [10.0 * sides[0], -20.0 * sides[1], 0.0] } else { [0.0; 3] };
     let upper = core::array::from_fn(|k| lower[k] + sides[k]);
     // Some fast ones among many that hardly move.
     let decades = if random.random_bool(0.25) { 3.0 } else { 0.0 };
@@ -311,6 +313,45 @@ fn giants_in_dust() {
     }
     giants::<f32>();
     giants::<f64>();
+}
+
+/// Crowds in the corners of a large box: cells fold.
+#[test]
+fn crowds_in_corners() {
+    fn crowds<T: Compiled>() {
+        for seed in 0..8 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let (side, crowd) = (2_000.0, 12.0);
+            let mut scene = builder::<T>().name(format!("crowds {seed}"));
+            let corners = [[0.0; 3], [side - crowd, 0.0, side - crowd]];
+            for (corner, count) in corners.into_iter().zip([150, 60]) {
+                let opposite = corner.map(|x| x + crowd);
+                let crowd = Spheres::random(random.random_range(count..count + 50))
+                    .radius(if seed % 3 == 0 { 0.4..=0.4 } else { 0.1..=0.6 })
+                    .density(0.1)
+                    .temperature(1.0)
+                    .within(corner, opposite);
+                scene = scene.spheres(crowd);
+            }
+            // Fast, through many folds.
+            scene = scene.sphere(
+                Sphere::new([side / 2.0, 6.0, 6.0]).radius(0.5).velocity([-700.0, 1.0, 2.0]),
+            );
+            scene = match seed % 3 {
+                0 => scene,
+                1 => scene.surroundings(Cuboid::container(t3([0.0; 3]), t3([side; 3]))),
+                _ => scene
+                    .periodic(PeriodicBox::new(t3([0.0; 3]), t3([side; 3])))
+                    .surroundings(FixedSphere::solid(t3([20.0, 8.0, 8.0]), T::ONE)),
+            };
+            if seed % 2 == 1 {
+                scene = scene.surface(Surface::Rough).gravity(t3([0.5, 0.0, -2.0]));
+            }
+            same_events(&scene.seed(seed).build().unwrap(), seed, 100);
+        }
+    }
+    crowds::<f32>();
+    crowds::<f64>();
 }
 
 /// Random scenes of each kind and precision.

@@ -1,7 +1,7 @@
 //! Near: which fixed features a body in a cell can touch.
 
 use crate::real::Real;
-use crate::space::cells::{Cells, Ends, Region};
+use crate::space::cells::{Cells, Ends, Span};
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -83,24 +83,23 @@ impl Near {
         features: &[Feature<T>],
         images: &[Vec3<T>],
         cells: &Cells<T>,
-        ends: Ends,
         radius: T,
     ) -> Self {
         let mut near = Self::default();
         let mut lists = Lists::new(features.len() * images.len());
-        let is_open = ends == Ends::Joined && images.len() == 1;
+        let is_folded = cells.is_folded();
         for (number, feature) in features.iter().enumerate() {
             let bounds = feature.bounds();
             for (image, shift) in images.iter().enumerate() {
                 let this = Image { feature: number as u32, image: image as u32 };
-                if is_open && bounds.is_none() {
+                let bounds = bounds.map(|bounds| bounds.map(|corner| corner + *shift));
+                if is_folded && bounds.is_none() {
                     near.everywhere.push(this);
                 } else if lists.shared == ALL {
                     lists.put(this, 0);
-                } else if let Some(bounds) = bounds.filter(|_| is_open) {
+                } else if let Some(bounds) = bounds.filter(|_| is_folded) {
                     cells.each_in(bounds, radius, |cell| lists.put(this, cell));
                 } else {
-                    let bounds = bounds.map(|bounds| bounds.map(|corner| corner + *shift));
                     let is_near = |center: Vec3<T>, reach: T| {
                         feature.clearance(center - *shift, radius).gap.le(reach)
                     };
@@ -109,7 +108,7 @@ impl Near {
             }
         }
         let Lists { mut entries, shared, .. } = lists;
-        // Where two images of a cell fold into one place, or cells share a list.
+        // Where two images of a cell fold into one, or cells share a list.
         entries.sort_unstable();
         entries.dedup();
         entries.sort_by_key(|&(_, list)| list);
@@ -153,18 +152,18 @@ impl Near {
     }
 }
 
-/// The region in which bodies are: the inside of the containers, or what the
+/// The span in which bodies are: the inside of the containers, or what the
 /// bodies and the solids without end span at the start. Bodies on a line or in a
 /// plane span nothing across: `least` is what each side has at least.
-pub(super) fn region<T: Real>(
+pub(super) fn span<T: Real>(
     least: T,
     interiors: impl Iterator<Item = [Vec3<T>; 2]>,
     features: &[Feature<T>],
     centers: impl Iterator<Item = Vec3<T>>,
-) -> Region<T> {
+) -> Span<T> {
     let inside = interiors.reduce(|[a, b], [c, d]| [a.greater(c), b.lesser(d)]);
     if let Some([lower, upper]) = inside {
-        return Region::new(lower, upper, Ends::Closed);
+        return Span::new(lower, upper, Ends::Closed);
     }
     let solids = features.iter().filter_map(Feature::bounds);
     let points = solids.chain(centers.map(|center| [center, center]));
@@ -173,5 +172,5 @@ pub(super) fn region<T: Real>(
     let missing = |low: T, high: T| (least - (high - low)).greater(T::ZERO) * T::ratio(1, 2);
     let missing =
         Vec3::new(missing(lower.x, upper.x), missing(lower.y, upper.y), missing(lower.z, upper.z));
-    Region::new(lower - missing, upper + missing, Ends::Joined)
+    Span::new(lower - missing, upper + missing, Ends::Open)
 }

@@ -7,7 +7,7 @@ use crate::column::Column;
 use crate::engine::plan::{Plan, Turning};
 use crate::real::Real;
 use crate::scene::Scene;
-use crate::space::cells::{Ends, Region};
+use crate::space::cells::{Ends, Span};
 use crate::space::levels::Levels;
 use crate::space::{OpenSpace, PeriodicBox, Space};
 use crate::surroundings::{Feature, features_of};
@@ -58,8 +58,8 @@ impl<T: Real> Setting<T> {
         // Wide enough for cells that do not all neighbour each other.
         let least = radius * T::whole(9);
         let grid = match scene.periodic {
-            Some(PeriodicBox { lower, upper }) => Region::new(lower, upper, Ends::Joined),
-            None => near::region(
+            Some(PeriodicBox { lower, upper }) => Span::new(lower, upper, Ends::Joined),
+            None => near::span(
                 least,
                 interiors.filter(|_| plan.features > 0),
                 &features,
@@ -68,12 +68,14 @@ impl<T: Real> Setting<T> {
         };
         let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
         let is_periodic = scene.periodic.is_some();
-        let fitting = |region| Levels::fitting(region, &bodies.radius, len, bounded);
-        let is_open = !is_periodic && grid.ends == Ends::Joined;
-        let cells = is_open.then(|| fitting(grid.crowd(least, &bodies.position)));
-        let cells = cells.filter(|cells| cells.finest().can_number(&grid));
-        let cells = cells.unwrap_or_else(|| fitting(grid));
-        let near = Near::new(&features, &images, cells.finest(), grid.ends, radius);
+        let fitting = |span| Levels::fitting(span, &bodies.radius, len, bounded);
+        // Each image of a solid without end would be near everywhere.
+        let can_fold = !is_periodic || bounded == features.len();
+        let cells = can_fold
+            .then(|| fitting(grid.folded(least, radius + radius, &bodies.position)))
+            .filter(|cells| cells.finest().can_number(&grid))
+            .unwrap_or_else(|| fitting(grid));
+        let near = Near::new(&features, &images, cells.finest(), radius);
         let setting = Self {
             gravity: scene.gravity,
             periodic: scene.periodic,

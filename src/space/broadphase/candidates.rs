@@ -26,7 +26,7 @@ pub(super) const FEW_PARTS: usize = 8;
 /// cells, few packs are.
 const COMPACT: i32 = 4;
 
-/// The places of two bodies.
+/// The slots of two bodies.
 pub type Pair = [u32; 2];
 
 /// What one piece of the search has found, for the bodies of one range.
@@ -35,7 +35,7 @@ pub struct Chunk {
     /// The grid that was searched, and its cells, by rank.
     grid: usize,
     cells: Range<u32>,
-    /// The places of the bodies in these cells.
+    /// The slots of the bodies in these cells.
     bodies: Range<usize>,
     /// Pairs whose surfaces were nearer than the skin, by the shell that their
     /// gap was in, innermost first.
@@ -54,7 +54,7 @@ impl Chunk {
         self.parts.clear();
     }
 
-    /// The fixed parts that bodies may touch, and the places of those bodies.
+    /// The fixed parts that bodies may touch, and the slots of those bodies.
     pub fn at_parts(&self) -> impl Iterator<Item = (u32, &[u32])> {
         let mut start = 0;
         self.parts.iter().map(move |&(part, end)| {
@@ -90,7 +90,7 @@ impl Chunk {
 /// All candidates, in chunks that do not depend on the number of threads.
 #[derive(Debug, Default)]
 pub struct Candidates {
-    /// The chunks, by the places of their first bodies.
+    /// The chunks, by the slots of their first bodies.
     pub chunks: Vec<Chunk>,
 }
 
@@ -99,9 +99,9 @@ impl Candidates {
     pub(super) fn begin<T: Real>(&mut self, grids: &[SearchedGrid<T>], starts: &[u32]) {
         let mut used = 0;
         for (number, searched) in grids.iter().enumerate() {
-            let place = |rank: u32| starts[(searched.first + rank) as usize] as usize;
+            let slot = |rank: u32| starts[(searched.first + rank) as usize] as usize;
             let all = searched.grid.len() as u32;
-            let bodies = place(all) - place(0);
+            let bodies = slot(all) - slot(0);
             let pieces = bodies.div_ceil(CHUNK) as u32;
             for piece in 0..pieces {
                 let cut = |k: u32| (u64::from(all) * u64::from(k) / u64::from(pieces)) as u32;
@@ -111,7 +111,7 @@ impl Candidates {
                 let chunk = &mut self.chunks[used];
                 chunk.grid = number;
                 chunk.cells = cut(piece)..cut(piece + 1);
-                chunk.bodies = place(chunk.cells.start)..place(chunk.cells.end);
+                chunk.bodies = slot(chunk.cells.start)..slot(chunk.cells.end);
                 used += 1;
             }
         }
@@ -177,14 +177,14 @@ pub(super) fn shell_ends<T: Real>(skin: T) -> [T; SHELLS - 1] {
     core::array::from_fn(|k| shell * T::whole(k as i32 + 1))
 }
 
-/// The runs of places around a cell: its own, and two of nine rows at most.
+/// The runs of slots around a cell: its own, and two of nine rows at most.
 #[derive(Default)]
-struct NearPlaces {
+struct NearSlots {
     all: [Range<u32>; 19],
     count: usize,
 }
 
-impl NearPlaces {
+impl NearSlots {
     #[inline(always)]
     fn push(&mut self, run: Range<u32>) {
         if !run.is_empty() {
@@ -201,22 +201,22 @@ impl NearPlaces {
 
 impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
     /// Finds the pairs of the bodies in the chunk's cells: with bodies of the
-    /// same grid at later places, and with bodies of the coarser grids.
+    /// same grid at later slots, and with bodies of the coarser grids.
     pub fn pairs<L: Lane<Scalar = T>>(&self, chunk: &mut Chunk) {
         let searched = &self.grids[chunk.grid];
-        let mut places = NearPlaces::default();
+        let mut slots = NearSlots::default();
         for rank in chunk.cells.clone() {
-            let bodies = self.places(searched, rank..rank + 1);
+            let bodies = self.slots(searched, rank..rank + 1);
             if bodies.is_empty() {
                 continue;
             }
             // The cell itself, then those of its neighbours that stand later.
-            places.count = 0;
-            places.push(bodies.clone());
-            searched.grid.for_each_later_run(rank, |run| places.push(self.places(searched, run)));
+            slots.count = 0;
+            slots.push(bodies.clone());
+            searched.grid.for_each_later_run(rank, |run| slots.push(self.slots(searched, run)));
             for body in bodies {
                 let point = self.point(body as usize);
-                for run in places.runs() {
+                for run in slots.runs() {
                     let start = run.start.max(body + 1);
                     self.test::<L>(body, point, start..run.end, &mut chunk.pairs);
                 }
@@ -224,7 +224,7 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
                     let cell = coarser.grid.cell(point);
                     coarser.grid.for_each_neighbour_row(cell, |_, runs| {
                         for run in runs {
-                            let run = self.places(coarser, run);
+                            let run = self.slots(coarser, run);
                             self.test::<L>(body, point, run, &mut chunk.pairs);
                         }
                     });
@@ -233,9 +233,9 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         }
     }
 
-    /// The places of the bodies in a run of cells.
+    /// The slots of the bodies in a run of cells.
     #[inline(always)]
-    fn places(&self, searched: &SearchedGrid<T>, run: Range<u32>) -> Range<u32> {
+    fn slots(&self, searched: &SearchedGrid<T>, run: Range<u32>) -> Range<u32> {
         if run.is_empty() {
             return 0..0;
         }
@@ -248,10 +248,10 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         Vec3::new(self.position[0][body], self.position[1][body], self.position[2][body])
     }
 
-    /// The centres of the bodies from a place on, zeros past the end.
+    /// The centres of the bodies from a slot on, zeros past the end.
     #[inline(always)]
     fn points<L: Lane<Scalar = T>>(&self, start: usize) -> Vec3<L> {
-        // The columns are padded, but a run may start at any place.
+        // The columns are padded, but a run may start at any slot.
         let [x, y, z] = self.position;
         if start + L::WIDTH <= x.len() {
             Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]))
@@ -261,7 +261,7 @@ impl<T: Real, R: Figure<T>, S: Space<T>> Search<'_, T, R, S> {
         }
     }
 
-    /// Tests one body against the bodies of a run of places.
+    /// Tests one body against the bodies of a run of slots.
     #[inline(always)]
     fn test<L: Lane<Scalar = T>>(
         &self,

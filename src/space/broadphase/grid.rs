@@ -1,9 +1,10 @@
 //! Grid: a lattice of cells that closes upon itself.
 //!
 //! A cell's neighbours are found by its three indices, each taken modulo the
-//! grid's size. In a periodic box that is the geometry itself. In open space it
-//! lets a grid of about as many cells as bodies serve bodies anywhere: one far
-//! outside only shares a cell with strangers, which the distance test turns away.
+//! grid's size. In a small periodic box that is the geometry itself. In a large one,
+//! and in open space, it lets a grid of about as many cells as bodies serve bodies
+//! anywhere, crowded or not: those far apart only share a cell with strangers,
+//! which the distance test turns away.
 
 use core::ops::Range;
 
@@ -26,16 +27,7 @@ impl<T: Real> Grid<T> {
     /// A grid over the points between `lower` and `upper` with cells of at
     /// least `side`, and no more than `most` of them.
     pub fn open(lower: Vec3<T>, upper: Vec3<T>, side: T, most: usize) -> Self {
-        let extent = upper - lower;
-        let wanted = |length: T| (length / side).whole_part().clamp(0, 1 << 40) as u64 + 1;
-        let mut cells = extent.to_array().map(wanted);
-        while cells.iter().map(|&n| n as u128).product::<u128>() > most.max(1) as u128 {
-            let longest = (0..3).max_by_key(|&axis| cells[axis]).unwrap_or(0);
-            if cells[longest] == 1 {
-                break;
-            }
-            cells[longest] = cells[longest].div_ceil(2);
-        }
+        let cells = few((upper - lower).to_array().map(|length| along(length, side) + 1), most);
         let per_length = T::ONE / side;
         Self {
             origin: lower,
@@ -44,21 +36,21 @@ impl<T: Real> Grid<T> {
         }
     }
 
-    /// A grid that divides a periodic box into cells of at least `side`, and no
-    /// more than about `most` of them.
+    /// A grid that divides a periodic box into cells of at least `side`. No more than
+    /// `most` of them are told apart: the box is a whole number of grids wide.
     pub fn periodic(space: &PeriodicBox<T>, side: T, most: usize) -> Self {
         let sides = space.sides().to_array();
-        // Cells of a sparse system grow until there are few enough.
-        let mut side = side;
-        let cells = loop {
-            let cells = sides.map(|length| (length / side).whole_part().clamp(1, 1 << 30) as u32);
-            if cells.iter().map(|&n| u128::from(n)).product::<u128>() <= most.max(1) as u128 {
-                break cells;
-            }
-            side = side * T::ratio(5, 4);
-        };
-        let per_length = core::array::from_fn(|k| T::from_f64(f64::from(cells[k])) / sides[k]);
-        Self { origin: space.lower, cells_per_length: per_length.into(), cells }
+        let wanted = sides.map(|length| along(length, side).max(1));
+        let cells = few(wanted, most);
+        let per_length = core::array::from_fn(|k| {
+            let grids = wanted[k] / cells[k];
+            T::from_f64((grids * cells[k]) as f64) / sides[k]
+        });
+        Self {
+            origin: space.lower,
+            cells_per_length: per_length.into(),
+            cells: cells.map(|n| n as u32),
+        }
     }
 
     /// How many cells there are.
@@ -71,12 +63,12 @@ impl<T: Real> Grid<T> {
     pub fn cell(&self, point: Vec3<T>) -> [u32; 3] {
         let scaled = point - self.origin;
         let along = |length: T, per_length: T, cells: u32| {
-            let place = length * per_length;
-            let index = place.whole_part();
-            if place >= T::ZERO && index < i64::from(cells) {
+            let scaled = length * per_length;
+            let index = scaled.whole_part();
+            if scaled >= T::ZERO && index < i64::from(cells) {
                 index as u32
             } else {
-                let floor = if place < T::ZERO { index.saturating_sub(1) } else { index };
+                let floor = if scaled < T::ZERO { index.saturating_sub(1) } else { index };
                 floor.rem_euclid(i64::from(cells)) as u32
             }
         };
@@ -139,6 +131,23 @@ impl<T: Real> Grid<T> {
             }
         }
     }
+}
+
+/// How many cells of a side fit in a length.
+fn along<T: Real>(length: T, side: T) -> u64 {
+    (length / side).whole_part().clamp(0, 1 << 40) as u64
+}
+
+/// Halves the longest row of cells until there are no more than `most` of them.
+fn few(mut cells: [u64; 3], most: usize) -> [u64; 3] {
+    while cells.iter().map(|&n| u128::from(n)).product::<u128>() > most.max(1) as u128 {
+        let longest = (0..3).max_by_key(|&axis| cells[axis]).unwrap_or(0);
+        if cells[longest] == 1 {
+            break;
+        }
+        cells[longest] = cells[longest].div_ceil(2);
+    }
+    cells
 }
 
 /// `index − 1 … index + 1` modulo `count`, each once, as one run or two.

@@ -3,17 +3,17 @@
 /// Bodies by cell: a counting sort, stable, linear in bodies and cells.
 #[derive(Debug, Default)]
 pub(super) struct CellOrder {
-    /// The first place of each cell, and one more.
+    /// The first slot of each cell, and one more.
     pub starts: Vec<u32>,
-    /// Which body comes to each place.
+    /// Which body comes to each slot.
     pub bodies: Vec<u32>,
 }
 
 impl CellOrder {
     /// Sorts bodies by the ranks of their cells, `cells` in number.
     pub fn sort(&mut self, ranks: &[u32], cells: usize) {
-        // Shifted by one, so that the counts turn into the first places and
-        // then, as bodies are placed, into the last ones.
+        // Shifted by one, so that the counts turn into the first slots and
+        // then, as bodies get theirs, into the last ones.
         self.starts.clear();
         self.starts.resize(cells + 2, 0);
         for &rank in ranks {
@@ -26,9 +26,9 @@ impl CellOrder {
         }
         self.bodies.resize(ranks.len(), 0);
         for (body, &rank) in ranks.iter().enumerate() {
-            let place = &mut self.starts[rank as usize + 1];
-            self.bodies[*place as usize] = body as u32;
-            *place += 1;
+            let slot = &mut self.starts[rank as usize + 1];
+            self.bodies[*slot as usize] = body as u32;
+            *slot += 1;
         }
         self.starts.pop();
     }

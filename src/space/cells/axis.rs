@@ -15,8 +15,9 @@ pub(super) const WIDE: i32 = 5;
 /// How space is bounded along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ends {
-    /// The last cell is a neighbour of the first: a periodic box, or open
-    /// space, in which cells far apart share a place in memory.
+    /// Space has no end: cells far apart share their memory.
+    Open,
+    /// The last cell is a neighbour of the first: a periodic box.
     Joined,
     /// Nothing is beyond the last cell.
     Closed,
@@ -27,9 +28,12 @@ pub(crate) enum Ends {
 pub(super) struct Axis<T> {
     pub(super) lower: T,
     pub(super) side: T,
+    /// Cells from end to end; of open space, those with memory of their own.
     pub(super) count: i32,
+    /// Cells with memory of their own; all others fold into them.
+    pub(super) kept: i32,
     pub(super) ends: Ends,
-    /// For each cell what the one before it, it and the one after it add to
+    /// For each of these what the one before it, it and the one after it add to
     /// the number of a cell.
     pub(super) parts: Vec<[u32; 3]>,
 }
@@ -40,14 +44,19 @@ impl<T: Real> Axis<T> {
     pub(super) fn held(&self, cell: i32) -> i32 {
         match self.ends {
             Ends::Closed => cell.clamp(0, self.count - 1),
-            Ends::Joined => cell,
+            Ends::Open | Ends::Joined => cell,
         }
     }
 
     /// Where in memory a coordinate is.
     #[inline(always)]
     pub(super) fn folded(&self, cell: i32) -> i32 {
-        if (cell as u32) < self.count as u32 { cell } else { cell.rem_euclid(self.count) }
+        if (cell as u32) < self.kept as u32 { cell } else { cell.rem_euclid(self.kept) }
+    }
+
+    /// Whether the last cell in memory is a neighbour of the first.
+    pub(super) fn closes(&self) -> bool {
+        self.ends != Ends::Closed || self.kept < self.count
     }
 }
 
@@ -56,7 +65,7 @@ pub(super) fn count<T: Real>(extent: T, least: T, wanted: T, ends: Ends) -> i32 
     let fits = |side: T| (extent / side).whole_part().clamp(1, MOST_CELLS) as i32;
     let count = fits(wanted);
     // A box of few cells has some more if they need not all be neighbours then.
-    if ends == Ends::Joined && count < WIDE { fits(least).clamp(2, WIDE) } else { count }
+    if ends != Ends::Closed && count < WIDE { fits(least).clamp(2, WIDE) } else { count }
 }
 
 /// Cells along the side of a block that lies together in memory.
@@ -75,9 +84,9 @@ pub(super) fn numbers(counts: [i32; 3]) -> u64 {
     blocks(counts).into_iter().flatten().map(u64::from).product()
 }
 
-/// Numbers the cells, and returns how many numbers there are.
-pub(super) fn number<T>(axes: &mut [Axis<T>; 3]) -> usize {
-    let [sides, blocks] = blocks(axes.each_ref().map(|axis| axis.count));
+/// Numbers the cells in memory, and returns how many numbers there are.
+pub(super) fn number<T: Real>(axes: &mut [Axis<T>; 3]) -> usize {
+    let [sides, blocks] = blocks(axes.each_ref().map(|axis| axis.kept));
     let within = [1, sides[0], sides[0] * sides[1]];
     let whole = sides[0] * sides[1] * sides[2];
     let between = [whole, whole * blocks[0], whole * blocks[0] * blocks[1]];
@@ -86,15 +95,15 @@ pub(super) fn number<T>(axes: &mut [Axis<T>; 3]) -> usize {
             let (block, inside) = (cell as u32 / sides[k], cell as u32 % sides[k]);
             block * between[k] + inside * within[k]
         };
-        let count = axis.count;
-        let neighbour = |cell: i32| match axis.ends {
-            _ if (0..count).contains(&cell) => part(cell),
-            Ends::Joined if count > 2 => part(cell.rem_euclid(count)),
+        let (kept, closes) = (axis.kept, axis.closes());
+        let neighbour = |cell: i32| match cell {
+            _ if (0..kept).contains(&cell) => part(cell),
+            _ if closes && kept > 2 => part(cell.rem_euclid(kept)),
             // With two cells each is the other's only neighbour.
             _ => NOWHERE,
         };
         axis.parts =
-            (0..count).map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)]).collect();
+            (0..kept).map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)]).collect();
     }
     (between[2] * blocks[2]) as usize
 }
