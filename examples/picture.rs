@@ -9,6 +9,7 @@
 
 use std::io::Write;
 
+use carom::scene::Impact;
 use carom::trigonometry::sin_cos;
 use carom::{Bodies, Cuboid, Scene, Spheres, Stepped, Surface, Vec3};
 
@@ -24,6 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .spheres(spheres(120).radius(0.35..=0.5))
         .spheres(spheres(1_400).radius(0.12..=0.2))
         .seed(3)
+        .impact(Impact::EndOfStep)
         .dt(5e-4)
         .build()?;
     let mut world = Stepped::new(scene)?;

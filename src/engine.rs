@@ -4,6 +4,7 @@ mod account;
 mod compiled;
 mod event;
 mod event_driven;
+mod frame;
 mod interface;
 mod plan;
 mod stepped;

@@ -60,6 +60,6 @@ pub use error::{Place, Problem, SceneError};
 pub use file::SceneFile;
 pub use settings::{
     Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS, OrientationUpdate, Precision,
-    SteppedSettings,
+    SteppedSettings, Summation,
 };
 pub use spheres::{Arrangement, Sphere, Spheres, Spread};

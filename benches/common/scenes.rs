@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use carom::contact::Surface;
 use carom::real::Real;
-use carom::scene::{Scene, SceneBuilder, SceneError, Spheres};
+use carom::scene::{Impact, Scene, SceneBuilder, SceneError, Spheres};
 use carom::surroundings::Cuboid;
 
 /// Share of the container's volume that the spheres fill.
@@ -22,7 +22,7 @@ pub fn spheres(bodies: usize) -> (Spheres, f64) {
 
 /// A scene of any spheres that move at temperature 1.
 pub fn steps<T: Real>() -> SceneBuilder<T> {
-    Scene::builder().dt(DIAMETERS_A_STEP / 3_f64.sqrt())
+    Scene::builder().impact(Impact::EndOfStep).dt(DIAMETERS_A_STEP / 3_f64.sqrt())
 }
 
 /// A closed container of that side.

@@ -99,8 +99,8 @@ pub struct SceneArguments {
     #[arg(long, value_parser = one_of(&ENGINES))]
     pub engine: Option<EngineKind>,
 
-    /// Length of a step of the stepped engine, in the scene's unit of time; the
-    /// event-driven engine has no steps
+    /// Length of a step of the stepped engine, in the scene's unit of time: a scene that
+    /// names no engine is run by that one then; the event-driven engine has no steps
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub dt: Option<f64>,
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use carom::scene::{DEFAULT_SCENE, SceneFile, builtin_scenes};
+use carom::scene::{DEFAULT_SCENE, EngineKind, SceneFile, builtin_scenes};
 
 use super::arguments::SceneArguments;
 use super::failure::Failure;
@@ -17,6 +17,9 @@ pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
     };
     if let Some(engine) = arguments.engine {
         file.engine = engine;
+    } else if arguments.dt.is_some() && !file.names_engine() {
+        // As a `[stepped]` table does.
+        file.engine = EngineKind::Stepped;
     }
     if let Some(precision) = arguments.precision {
         file.precision = precision;

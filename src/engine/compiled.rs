@@ -1,5 +1,6 @@
 //! Compiled: the precisions that engines are there for.
 
+use super::frame::{Frame, Framed};
 use super::interface::{EventEngine, StepEngine};
 use super::{EngineError, Execution, event_driven, stepped};
 #[cfg(feature = "study")]
@@ -34,14 +35,22 @@ macro_rules! compile {
 
         impl sealed::Engines for $real {
             fn event_driven(scene: Scene<Self>, execution: Execution) -> Box<dyn EventEngine<Self>> {
-                Box::new(event_driven::Driver::new(scene, execution))
+                let driver = |scene| event_driven::Driver::new(scene, execution);
+                match Frame::of(&scene) {
+                    None => Box::new(driver(scene)),
+                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene)), frame }),
+                }
             }
 
             fn stepped(
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn StepEngine<Self>>, EngineError> {
-                Ok(Box::new(stepped::Driver::new(scene, execution)?))
+                let driver = |scene| stepped::Driver::new(scene, execution);
+                Ok(match Frame::of(&scene) {
+                    None => Box::new(driver(scene)?),
+                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
+                })
             }
         }
     )*};

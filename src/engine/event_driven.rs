@@ -266,7 +266,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
-        self.engine.account().collisions
+        self.engine.collisions()
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the
@@ -283,7 +283,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
-        self.engine.account().impulse()
+        self.engine.impulse()
     }
 
     /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
@@ -301,7 +301,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
-        self.engine.account().virial()
+        self.engine.virial()
     }
 
     /// Mean length of the flights between collisions, those under way counted

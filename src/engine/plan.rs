@@ -10,7 +10,8 @@ use crate::bodies::PerBody;
 use crate::contact::Surface;
 use crate::motion::Integrator;
 use crate::real::Real;
-use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene};
+use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene, Summation};
+use crate::vec3::Vec3;
 
 /// What becomes of the orientations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +62,9 @@ pub struct Plan {
     pub has_field: bool,
     /// How the stepped engine integrates flight.
     pub integrator: Integrator,
+    /// How the stepped engine adds up positions and velocities: never
+    /// [`Summation::Auto`].
+    pub summation: Summation,
     /// When contacts of the stepped engine take effect.
     pub impact: Impact,
     /// Whether positions are wrapped and differences taken to the nearest image.
@@ -119,6 +123,11 @@ impl Plan {
             has_screening,
             has_field: scene.gravity.to_array().iter().any(|&a| a != T::ZERO),
             integrator: scene.stepped.integrator,
+            summation: match scene.stepped.summation {
+                Summation::Auto if has_short_steps(scene) => Summation::Compensated,
+                Summation::Auto => Summation::Plain,
+                summation => summation,
+            },
             impact: scene.stepped.impact,
             is_periodic: scene.periodic.is_some(),
             has_pairs: scene.encounters == Encounters::All && bodies.len() > 1,
@@ -130,6 +139,32 @@ impl Plan {
             turning,
         }
     }
+}
+
+/// How many units in the last digit of the coordinates a step must have for plain sums:
+/// they err by half a unit in each, always to the same side as long as speed and binary
+/// exponent are the same.
+const LONG_STEP: f64 = (1_u64 << 26) as f64;
+
+/// Whether steps are so short beside the coordinates that plain sums would show it.
+fn has_short_steps<T: Real>(scene: &Scene<T>) -> bool {
+    let Some(dt) = scene.stepped.dt else { return false };
+    let bodies = &scene.bodies;
+    let greatest = |most: f64, value: f64| most.max(value.abs());
+    let coordinates = bodies.position.iter().flat_map(|column| column.iter());
+    let mut extent = coordinates.map(|&x| x.to_f64()).fold(0.0, greatest);
+    if let Some(space) = scene.periodic {
+        let corners = [space.lower, space.upper].map(Vec3::to_array);
+        extent = corners.iter().flatten().map(|&x| x.to_f64()).fold(extent, greatest);
+    }
+    let components = bodies.velocity.iter().flat_map(|column| column.iter());
+    let squares: f64 = components.map(|&v| v.to_f64().powi(2)).sum();
+    // What a fall through a radius gives counts as well.
+    let gravity = scene.gravity.length().to_f64();
+    let fallen = (gravity * bodies.radius.greatest().to_f64()).sqrt();
+    let speed = (squares / bodies.len() as f64).sqrt().max(fallen);
+    let is_short = |step: f64, whole: f64| step < LONG_STEP * T::EPSILON.to_f64() * whole;
+    is_short(speed * dt, extent) || gravity > 0.0 && is_short(gravity * dt, speed)
 }
 
 /// The widths for sweeps and for gathers. Measured: the widest packs are best

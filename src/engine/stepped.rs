@@ -301,7 +301,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
-        self.engine.account().collisions
+        self.engine.collisions()
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the
@@ -318,7 +318,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
-        self.engine.account().impulse()
+        self.engine.impulse()
     }
 
     /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
@@ -336,7 +336,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
-        self.engine.account().virial()
+        self.engine.virial()
     }
 
     /// The bytes of memory that the engine holds.

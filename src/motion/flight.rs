@@ -20,6 +20,7 @@
 //! assert_eq!((x, z, w), ([0.5; 5], [0.5; 5], [0.0; 5]));
 //! ```
 
+use crate::compensated::two_sum;
 use crate::lane::Lane;
 use crate::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, Integrator, SemiImplicitEuler, VelocityVerlet,
@@ -89,6 +90,125 @@ pub fn flight_and_fastest<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
     sweep::<L, I, S, true>(position, velocity, acceleration, dt, space)
 }
 
+/// What the rounding of a sum leaves out, for each body: it is added in the next
+/// step, so that a body that moves by less than the last digit of its position
+/// moves nevertheless.
+///
+/// Columns as those that they belong to; without a field those of the velocity
+/// may be empty.
+#[derive(Debug)]
+pub struct Remainders<'a, T> {
+    /// Of the positions, length.
+    pub position: [&'a mut [T]; 3],
+    /// Of the velocities, length per time.
+    pub velocity: [&'a mut [T]; 3],
+}
+
+/// [`flight_and_fastest`] by compensated sums: after any number of steps a position
+/// is off by a few units in its last digit and a few `ε` of the way flown, not by half
+/// a unit for each step (Neumaier, *ZAMM* 54, 1974).
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::flight::{Remainders, compensated_flight_and_fastest};
+/// use carom::motion::integrator::Coasting;
+/// use carom::space::OpenSpace;
+///
+/// // Each step is less than half a unit in the last digit of 1000.
+/// let (mut x, mut y, mut z) = ([1000.0_f32], [0.0], [0.0]);
+/// let (mut u, mut v, mut w) = ([1.0], [0.0], [0.0]);
+/// let (mut low, mut none) = ([[0.0]; 3], [[]; 3]);
+/// for _ in 0..100_000 {
+///     let remainders = Remainders {
+///         position: low.each_mut().map(|column| column.as_mut_slice()),
+///         velocity: none.each_mut().map(|column: &mut [f32; 0]| column.as_mut_slice()),
+///     };
+///     compensated_flight_and_fastest::<f32, Coasting, _>(
+///         [&mut x, &mut y, &mut z],
+///         [&mut u, &mut v, &mut w],
+///         remainders,
+///         Vec3::ZERO,
+///         1e-5,
+///         OpenSpace,
+///     );
+/// }
+/// assert_eq!(x, [1001.0]);
+/// ```
+pub fn compensated_flight_and_fastest<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
+    position: [&mut [L::Scalar]; 3],
+    velocity: [&mut [L::Scalar]; 3],
+    remainders: Remainders<'_, L::Scalar>,
+    acceleration: Vec3<L::Scalar>,
+    dt: L::Scalar,
+    space: S,
+) -> L::Scalar {
+    let columns = position.iter().chain(&velocity).chain(&remainders.position);
+    let kicked = if I::CHANGES_VELOCITY { remainders.velocity.as_slice() } else { &[] };
+    let len = columns.chain(kicked).map(|column| column.len()).min().unwrap_or(0);
+    let kicked = if I::CHANGES_VELOCITY { len } else { 0 };
+    let (positions, last_positions) = lanes_and_tail::<L, 3>(position, len);
+    let (velocities, last_velocities) = lanes_and_tail::<L, 3>(velocity, len);
+    let (low, last_low) = lanes_and_tail::<L, 3>(remainders.position, len);
+    let (kicks, last_kicks) = lanes_and_tail::<L, 3>(remainders.velocity, kicked);
+    let all = [positions, velocities, low, kicks];
+    let last = [last_positions, last_velocities, last_low, last_kicks];
+    let fastest = compensated_arrays::<L, I, S>(all, acceleration, dt, space);
+    fastest.greater(compensated_arrays::<L::Scalar, I, S>(last, acceleration, dt, space))
+}
+
+#[inline(always)]
+fn compensated_arrays<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
+    [mut positions, mut velocities, mut low, mut kicks]: [Arrays<L, 3>; 4],
+    acceleration: Vec3<L::Scalar>,
+    dt: L::Scalar,
+    space: S,
+) -> L::Scalar {
+    let (acceleration, dt) = (Vec3::<L>::splat(acceleration), L::splat(dt));
+    let at = |columns: &Arrays<L, 3>, k: usize| {
+        Vec3::<L>::from_arrays(columns.each_ref().map(|column| column[k]))
+    };
+    let put = |columns: &mut Arrays<L, 3>, k: usize, value: Vec3<L>| {
+        for (column, value) in columns.iter_mut().zip(value.to_arrays()) {
+            column[k] = value;
+        }
+    };
+    let mut fastest = L::ZERO;
+    for k in 0..positions[0].len() {
+        let before = at(&velocities, k);
+        let way = I::mean_velocity(before, acceleration, dt) * dt;
+        let (position, rest) = compensated_sum(at(&positions, k), at(&low, k), way);
+        put(&mut positions, k, space.wrap(position));
+        put(&mut low, k, rest);
+        let mut velocity = before;
+        if I::CHANGES_VELOCITY {
+            let rest;
+            (velocity, rest) = compensated_sum(before, at(&kicks, k), acceleration * dt);
+            put(&mut velocities, k, velocity);
+            put(&mut kicks, k, rest);
+        }
+        fastest = velocity.length_squared().greater(fastest);
+    }
+    fastest.to_array().as_ref().iter().fold(L::Scalar::ZERO, |most, &value| value.greater(most))
+}
+
+/// A sum and what its rounding leaves out, once a term is added to both.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::flight::compensated_sum;
+/// let one = Vec3::new(1.0, 1.0, 1.0);
+/// let (sum, rest) = compensated_sum(one * 1e20, Vec3::ZERO, one);
+/// assert_eq!((sum, rest), (one * 1e20, one));
+/// ```
+#[inline(always)]
+pub fn compensated_sum<L: Lane>(sum: Vec3<L>, rest: Vec3<L>, term: Vec3<L>) -> (Vec3<L>, Vec3<L>) {
+    let term = term + rest;
+    let (x, x_rest) = two_sum(sum.x, term.x);
+    let (y, y_rest) = two_sum(sum.y, term.y);
+    let (z, z_rest) = two_sum(sum.z, term.z);
+    (Vec3::new(x, y, z), Vec3::new(x_rest, y_rest, z_rest))
+}
+
 impl Integrator {
     /// [`flight`] by the integrator of this name; without a field, by
     /// [`Coasting`].
@@ -130,6 +250,30 @@ impl Integrator {
         space: S,
     ) -> L::Scalar {
         self.sweep::<L, S, true>(position, velocity, acceleration, dt, space)
+    }
+
+    /// [`compensated_flight_and_fastest`] by the integrator of this name; without a
+    /// field, by [`Coasting`].
+    pub fn compensated_flight_and_fastest<L: Lane, S: Wrap<L::Scalar>>(
+        self,
+        position: [&mut [L::Scalar]; 3],
+        velocity: [&mut [L::Scalar]; 3],
+        remainders: Remainders<'_, L::Scalar>,
+        acceleration: Option<Vec3<L::Scalar>>,
+        dt: L::Scalar,
+        space: S,
+    ) -> L::Scalar {
+        let run = match (acceleration, self) {
+            (None, _) => compensated_flight_and_fastest::<L, Coasting, S>,
+            (Some(_), Self::SemiImplicitEuler) => {
+                compensated_flight_and_fastest::<L, SemiImplicitEuler, S>
+            }
+            (Some(_), Self::ExplicitEuler) => compensated_flight_and_fastest::<L, ExplicitEuler, S>,
+            (Some(_), Self::VelocityVerlet) => {
+                compensated_flight_and_fastest::<L, VelocityVerlet, S>
+            }
+        };
+        run(position, velocity, remainders, acceleration.unwrap_or(Vec3::ZERO), dt, space)
     }
 
     fn sweep<L: Lane, S: Wrap<L::Scalar>, const FASTEST: bool>(

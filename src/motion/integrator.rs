@@ -23,11 +23,11 @@ use crate::vec3::Vec3;
 #[non_exhaustive]
 pub enum Integrator {
     /// [`SemiImplicitEuler`]: each step loses `Δt²|a|²m/2` of energy.
-    #[default]
     SemiImplicitEuler,
     /// [`ExplicitEuler`]: each step gains `Δt²|a|²m/2`.
     ExplicitEuler,
     /// [`VelocityVerlet`]: the exact parabola.
+    #[default]
     VelocityVerlet,
 }
 
@@ -87,15 +87,24 @@ pub trait FlightStep {
     /// Whether the step can change a velocity; if not, sweeps store none.
     const CHANGES_VELOCITY: bool = true;
 
+    /// The velocity with which the centre moves through the step, length per time.
+    fn mean_velocity<L: Lane>(velocity: Vec3<L>, acceleration: Vec3<L>, dt: L) -> Vec3<L>;
+
     /// Position and velocity a time `dt` later. Any sign and size of `dt` is
     /// valid; each component takes one rounding for each `+` and `×` of the
     /// formula.
+    #[inline(always)]
     fn step<L: Lane>(
         position: Vec3<L>,
         velocity: Vec3<L>,
         acceleration: Vec3<L>,
         dt: L,
-    ) -> (Vec3<L>, Vec3<L>);
+    ) -> (Vec3<L>, Vec3<L>) {
+        let mean = Self::mean_velocity(velocity, acceleration, dt);
+        let after =
+            if Self::CHANGES_VELOCITY { kick(velocity, acceleration, dt) } else { velocity };
+        (drift(position, mean, dt), after)
+    }
 }
 
 /// No field: `c += vΔt`. The acceleration is not read.
@@ -106,8 +115,8 @@ impl FlightStep for Coasting {
     const CHANGES_VELOCITY: bool = false;
 
     #[inline(always)]
-    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, _: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
-        (drift(c, v, dt), v)
+    fn mean_velocity<L: Lane>(velocity: Vec3<L>, _: Vec3<L>, _: L) -> Vec3<L> {
+        velocity
     }
 }
 
@@ -130,9 +139,8 @@ pub struct SemiImplicitEuler;
 
 impl FlightStep for SemiImplicitEuler {
     #[inline(always)]
-    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, a: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
-        let v = kick(v, a, dt);
-        (drift(c, v, dt), v)
+    fn mean_velocity<L: Lane>(velocity: Vec3<L>, acceleration: Vec3<L>, dt: L) -> Vec3<L> {
+        kick(velocity, acceleration, dt)
     }
 }
 
@@ -142,8 +150,8 @@ pub struct ExplicitEuler;
 
 impl FlightStep for ExplicitEuler {
     #[inline(always)]
-    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, a: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
-        (drift(c, v, dt), kick(v, a, dt))
+    fn mean_velocity<L: Lane>(velocity: Vec3<L>, _: Vec3<L>, _: L) -> Vec3<L> {
+        velocity
     }
 }
 
@@ -154,8 +162,7 @@ pub struct VelocityVerlet;
 
 impl FlightStep for VelocityVerlet {
     #[inline(always)]
-    fn step<L: Lane>(c: Vec3<L>, v: Vec3<L>, a: Vec3<L>, dt: L) -> (Vec3<L>, Vec3<L>) {
-        let mean = kick(v, a, dt * L::ratio(1, 2));
-        (drift(c, mean, dt), kick(v, a, dt))
+    fn mean_velocity<L: Lane>(velocity: Vec3<L>, acceleration: Vec3<L>, dt: L) -> Vec3<L> {
+        kick(velocity, acceleration, dt * L::ratio(1, 2))
     }
 }

@@ -4,7 +4,7 @@ use super::checked::Scene;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
 use super::origin::Origin;
-use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate};
+use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Summation};
 use super::spheres::{Sphere, Spheres};
 use crate::bodies::Bodies;
 use crate::contact::Surface;
@@ -126,6 +126,13 @@ impl<T: Real> SceneBuilder<T> {
     #[must_use]
     pub fn orientation(mut self, orientation: OrientationUpdate) -> Self {
         self.description.stepped.orientation = orientation;
+        self
+    }
+
+    /// How the stepped engine adds up positions and velocities from step to step.
+    #[must_use]
+    pub fn summation(mut self, summation: Summation) -> Self {
+        self.description.stepped.summation = summation;
         self
     }
 

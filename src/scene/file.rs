@@ -21,7 +21,7 @@ use crate::vec3::Vec3;
 /// | At the top | Default | |
 /// |---|---|---|
 /// | `precision` | `"f64"` | or `"f32"` |
-/// | `engine` | `"stepped"` | or `"event-driven"` |
+/// | `engine` | `"event-driven"`; with a `[stepped]` table `"stepped"` | |
 /// | `duration` | | time; a run needs it |
 /// | `gravity` | `[0, 0, 0]` | length per time² |
 /// | `seed` | 0 | of all random numbers |
@@ -31,9 +31,10 @@ use crate::vec3::Vec3;
 /// | `[stepped]` | Default | |
 /// |---|---|---|
 /// | `dt` | | time; a scene of the stepped engine needs it |
-/// | `integrator` | `"semi-implicit-euler"` | or `"explicit-euler"`, `"velocity-verlet"` |
-/// | `impact` | `"end-of-step"` | or `"sub-step"` |
+/// | `integrator` | `"velocity-verlet"` | or `"semi-implicit-euler"`, `"explicit-euler"` |
+/// | `impact` | `"sub-step"` | or `"end-of-step"` |
 /// | `orientation` | `"when-asked"` | or `"each-step"` |
+/// | `summation` | `"auto"` | or `"plain"`, `"compensated"` |
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
@@ -75,7 +76,8 @@ pub struct SceneFile {
     pub name: String,
     /// In which numbers the file wants to be computed; `f64` by default.
     pub precision: Precision,
-    /// What moves it through time; the stepped engine by default.
+    /// What moves it through time: without the key `engine`, the stepped engine if
+    /// there is a `[stepped]` table, else the event-driven one.
     pub engine: EngineKind,
     /// How long a run takes, time.
     pub duration: Option<f64>,
@@ -121,9 +123,12 @@ impl SceneFile {
         Ok(Self {
             name: name.to_owned(),
             precision: raw.precision.unwrap_or_default(),
-            engine: raw.engine.unwrap_or_default(),
+            engine: raw.engine.unwrap_or(match raw.stepped {
+                Some(_) => EngineKind::Stepped,
+                None => EngineKind::EventDriven,
+            }),
             duration: number(raw.duration),
-            dt: number(raw.stepped.dt),
+            dt: number(raw.stepped.as_ref().and_then(|stepped| stepped.dt)),
             seed: raw.seed.map_or(0, |Whole(seed)| seed),
             path: name.to_owned(),
             text,
@@ -136,6 +141,20 @@ impl SceneFile {
     pub fn builtin(name: &str) -> Option<Self> {
         let scene = builtin::builtin_scenes().iter().find(|scene| scene.name == name)?;
         Self::parse(scene.name, scene.text).ok()
+    }
+
+    /// Whether the file says which engine moves it, and does not leave that to its
+    /// other keys.
+    ///
+    /// ```
+    /// use carom::scene::SceneFile;
+    /// assert!(SceneFile::parse("named", "engine = \"stepped\"")?.names_engine());
+    /// assert!(!SceneFile::parse("left open", "duration = 1.0")?.names_engine());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn names_engine(&self) -> bool {
+        self.raw.engine.is_some()
     }
 
     /// The text that it was read from.
@@ -167,11 +186,13 @@ impl SceneFile {
         asked.seed = self.seed;
         asked.surface = self.raw.surface.kind.unwrap_or_default();
         asked.encounters = self.raw.encounters.unwrap_or_default();
+        let stepped = self.raw.stepped.clone().unwrap_or_default();
         asked.stepped = SteppedSettings {
             dt: self.dt,
-            integrator: self.raw.stepped.integrator.unwrap_or_default(),
-            impact: self.raw.stepped.impact.unwrap_or_default(),
-            orientation: self.raw.stepped.orientation.unwrap_or_default(),
+            integrator: stepped.integrator.unwrap_or_default(),
+            impact: stepped.impact.unwrap_or_default(),
+            orientation: stepped.orientation.unwrap_or_default(),
+            summation: stepped.summation.unwrap_or_default(),
         };
         if let Some(Vector(gravity)) = self.raw.gravity {
             asked.gravity = Vec3::from(gravity).cast();
@@ -201,7 +222,7 @@ impl SceneFile {
         if bits(self.duration) != bits(number(self.raw.duration)) {
             origin.overridden("duration", "--duration");
         }
-        if bits(self.dt) != bits(number(self.raw.stepped.dt)) {
+        if bits(self.dt) != bits(number(self.raw.stepped.as_ref().and_then(|stepped| stepped.dt))) {
             origin.overridden("stepped.dt", "--dt");
         }
         origin

@@ -10,7 +10,7 @@ use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAc
 
 pub(super) use surroundings::{KEYS, RawSurroundings};
 
-use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Precision};
+use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Precision, Summation};
 use super::spheres::{Arrangement, Spread};
 use crate::contact::Surface;
 use crate::motion::Integrator;
@@ -26,8 +26,7 @@ pub(super) struct RawScene {
     pub(super) seed: Option<Whole>,
     pub(super) encounters: Option<Encounters>,
     pub(super) periodic: Option<RawPeriodic>,
-    #[serde(default)]
-    pub(super) stepped: RawStepped,
+    pub(super) stepped: Option<RawStepped>,
     #[serde(default)]
     pub(super) surface: RawSurface,
     #[serde(default)]
@@ -44,6 +43,7 @@ pub(super) struct RawStepped {
     pub(super) integrator: Option<Integrator>,
     pub(super) impact: Option<Impact>,
     pub(super) orientation: Option<OrientationUpdate>,
+    pub(super) summation: Option<Summation>,
 }
 
 /// `[surface]`.

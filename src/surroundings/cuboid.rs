@@ -196,6 +196,18 @@ impl<T: Real> Solid<T> for Cuboid<T> {
         if self.inside { self.faces().map(Feature::Plane).into() } else { vec![(*self).into()] }
     }
 
+    fn points(&self) -> Vec<Vec3<T>> {
+        vec![self.lower, self.upper]
+    }
+
+    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+        Self {
+            lower: (self.lower - origin) * scale,
+            upper: (self.upper - origin) * scale,
+            inside: self.inside,
+        }
+    }
+
     fn interior(&self) -> Option<[Vec3<T>; 2]> {
         self.inside.then_some([self.lower, self.upper])
     }

@@ -133,6 +133,19 @@ impl<T: Real> Solid<T> for FixedSphere<T> {
         FixedSphere { center: self.center.cast(), radius: self.radius.cast(), inside: self.inside }
     }
 
+    fn points(&self) -> Vec<Vec3<T>> {
+        let [lower, upper] = self.cube(self.radius);
+        vec![self.center, lower, upper]
+    }
+
+    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+        Self {
+            center: (self.center - origin) * scale,
+            radius: self.radius * scale,
+            inside: self.inside,
+        }
+    }
+
     fn interior(&self) -> Option<[Vec3<T>; 2]> {
         self.inside.then(|| self.cube(self.radius))
     }

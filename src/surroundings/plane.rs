@@ -102,4 +102,12 @@ impl<T: Real> Solid<T> for Plane<T> {
     fn cast<B: Real>(&self) -> Plane<B> {
         Plane { point: self.point.cast(), normal: self.normal.cast() }
     }
+
+    fn points(&self) -> Vec<Vec3<T>> {
+        vec![self.point]
+    }
+
+    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+        Self { point: (self.point - origin) * scale, normal: self.normal }
+    }
 }

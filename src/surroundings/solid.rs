@@ -46,6 +46,13 @@ pub(crate) trait Solid<T: Real>: Clone + Into<Feature<T>> {
     /// Every number becomes the nearest of another precision.
     fn cast<B: Real>(&self) -> Self::In<B>;
 
+    /// The points that it is described by, length.
+    fn points(&self) -> Vec<Vec3<T>>;
+
+    /// The same shape seen from an origin, in a unit of length: every point becomes
+    /// `(p − origin)·scale`, every length `l·scale`.
+    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self;
+
     /// What a sphere can touch in one point at a time: the shape itself, or
     /// what it falls apart into.
     fn features(&self) -> Vec<Feature<T>> {
@@ -173,6 +180,20 @@ macro_rules! solids {
             pub fn cast<B: Real>(&self) -> Shape<B> {
                 match self {
                     $(Self::$solid(solid) => Shape::$solid(solid.cast()),)*
+                }
+            }
+
+            /// As [`Solid::points`].
+            pub(crate) fn points(&self) -> Vec<Vec3<T>> {
+                match self {
+                    $(Self::$solid(solid) => solid.points(),)*
+                }
+            }
+
+            /// As [`Solid::in_frame`].
+            pub(crate) fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+                match self {
+                    $(Self::$solid(solid) => Self::$solid(solid.in_frame(origin, scale)),)*
                 }
             }
 

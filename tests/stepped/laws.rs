@@ -14,6 +14,7 @@ fn thirty_balls(surface: Surface, integrator: Integrator) -> Scene<f64> {
     Scene::<f64>::builder()
         .surface(surface)
         .integrator(integrator)
+        .impact(Impact::EndOfStep)
         .gravity([0.0, 0.3, -9.81])
         .surroundings(Cuboid::container([0.0; 3], [3.0; 3]))
         .spheres(Spheres::random(30).radius(0.25).temperature(20.0).spin_temperature(1.0).seed(8))
@@ -227,6 +228,7 @@ fn memory_is_linear_and_small() {
         let scene = Scene::<T>::builder()
             .surroundings(Cuboid::container([T::ZERO; 3], [T::from_f64(side); 3]))
             .spheres(Spheres::cubic(count).radius(0.5).temperature(1.0))
+            .impact(Impact::EndOfStep)
             .dt(0.0115)
             .build()
             .unwrap();

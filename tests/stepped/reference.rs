@@ -7,7 +7,7 @@ use carom::engine::Compiled;
 use carom::motion::flight::flight;
 use carom::motion::integrator::SemiImplicitEuler;
 use carom::observe::state_hash;
-use carom::scene::{Scene, Sphere, Spheres};
+use carom::scene::{Impact, Scene, Sphere, Spheres};
 use carom::space::{OpenSpace, PeriodicBox, Space};
 use carom::surroundings::{Cuboid, FixedSphere, Plane};
 use carom::vec3::Vec3;
@@ -100,7 +100,7 @@ fn scenes_agree<T: Compiled>() {
     let t = |value: f64| T::from_f64(value);
     let corner = |value: f64| [t(value); 3];
     for surface in [Surface::Smooth, Surface::Rough] {
-        let builder = || Scene::<T>::builder().surface(surface).dt(0.01);
+        let builder = || Scene::<T>::builder().surface(surface).impact(Impact::EndOfStep).dt(0.01);
         let gas = Spheres::random(150).radius(0.4).temperature(1.0).spin_temperature(1.0).seed(3);
         let container = Cuboid::container(corner(0.0), corner(6.0));
         agree(
@@ -178,7 +178,8 @@ fn same_bits_as_one_contact_after_another() {
 /// chains of contacts that share bodies.
 #[test]
 fn chains_of_contacts_keep_the_scenes_order() {
-    let mut builder = Scene::<f64>::builder().dt(0.05).surface(Surface::Rough);
+    let mut builder =
+        Scene::<f64>::builder().dt(0.05).impact(Impact::EndOfStep).surface(Surface::Rough);
     for k in 0..60 {
         let x = f64::from((k * 37) % 60);
         let sphere = Sphere::new([x, 0.01 * x, 0.0]).radius(0.5).spin([0.0, 1.0, 0.3]);

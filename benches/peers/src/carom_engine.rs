@@ -77,6 +77,8 @@ fn translated<T: Compiled>(
         .gravity([T::ZERO, T::ZERO, real(scene.gravity)])
         .encounters(if scene.collisions { Encounters::All } else { Encounters::None })
         .dt(scene.dt)
+        .impact(Impact::EndOfStep)
+        .integrator(Integrator::SemiImplicitEuler)
         .bodies(bodies(&scene.spheres)?);
     builder = match scene.surroundings {
         Surroundings::None => builder,

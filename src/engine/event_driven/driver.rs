@@ -11,7 +11,7 @@ use crate::compensated::CompensatedSum;
 use crate::engine::account::{Account, Effort};
 use crate::engine::interface::{Engine, EventEngine};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{EngineError, Execution, Listener};
+use crate::engine::{Collisions, EngineError, Execution, Listener};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
@@ -137,8 +137,16 @@ impl<T: Real> Engine<T> for Driver<T> {
         self.clock.time
     }
 
-    fn account(&self) -> &Account {
-        &self.account
+    fn collisions(&self) -> Collisions {
+        self.account.collisions
+    }
+
+    fn virial(&self) -> f64 {
+        self.account.virial()
+    }
+
+    fn impulse(&self) -> [f64; 3] {
+        self.account.impulse()
     }
 
     fn bodies(&self) -> Bodies<T> {

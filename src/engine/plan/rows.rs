@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::{Plan, Turning};
-use crate::scene::{EngineKind, Impact};
+use crate::scene::{EngineKind, Impact, Summation};
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -17,6 +17,17 @@ impl fmt::Display for Plan {
             row("time", "in periods with an origin of their own, a power of two long")?;
         }
         row("flight", &self.flight())?;
+        if is_stepped {
+            row(
+                "sums",
+                match self.summation {
+                    Summation::Compensated => {
+                        "compensated: what rounding leaves out is added in the next step"
+                    }
+                    _ => "plain: steps are long beside the digits of the coordinates",
+                },
+            )?;
+        }
         row(
             "space",
             match (self.is_periodic, is_stepped) {

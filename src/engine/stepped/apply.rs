@@ -9,7 +9,6 @@ use super::state::{State, put};
 use crate::bodies::at;
 use crate::engine::account::Account;
 use crate::engine::{Event, Partner};
-use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -60,15 +59,10 @@ fn give<T: Real>(
     if setting.is_within_step() {
         // Forward again from the contact with the new velocity.
         let change = (velocity - at(&state.velocity, slot)) * contact.ago;
-        let position = at(&state.position, slot) + change;
-        let position = match setting.periodic {
-            None => position,
-            Some(space) => space.wrap(position),
-        };
-        put(&mut state.position, slot, position);
+        state.shift(slot, change, setting.periodic);
         jump = change.length() * T::ratio(65, 64);
     }
-    put(&mut state.velocity, slot, velocity);
+    state.set_velocity(slot, velocity);
     jump
 }
 

@@ -13,7 +13,7 @@ use crate::bodies::Bodies;
 use crate::engine::account::Account;
 use crate::engine::interface::{Engine, StepEngine};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{EngineError, Execution, Listener};
+use crate::engine::{Collisions, EngineError, Execution, Listener};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -113,8 +113,16 @@ impl<T: Real> Engine<T> for Driver<T> {
         self.clock.time(self.setting.exact_dt)
     }
 
-    fn account(&self) -> &Account {
-        &self.account
+    fn collisions(&self) -> Collisions {
+        self.account.collisions
+    }
+
+    fn virial(&self) -> f64 {
+        self.account.virial()
+    }
+
+    fn impulse(&self) -> [f64; 3] {
+        self.account.impulse()
     }
 
     fn bodies(&self) -> Bodies<T> {

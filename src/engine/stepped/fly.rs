@@ -1,8 +1,11 @@
 //! Fly: free flight of all bodies through one step.
 
+use core::slice::ChunksMut;
+
 use super::setting::Setting;
-use super::state::State;
+use super::state::{Low, State};
 use crate::lane::Lane;
+use crate::motion::flight::{Remainders, Wrap};
 use crate::motion::turning::turn;
 use crate::real::Real;
 use crate::space::OpenSpace;
@@ -14,34 +17,60 @@ const FLOWN: usize = 1 << 14;
 /// Flies all bodies through one step and returns how far any has moved at most,
 /// with a margin for the rounding.
 pub(super) fn fly<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, state: &mut State<T>) -> T {
-    let &Setting { dt, acceleration, integrator, periodic, .. } = setting;
-    let [x, y, z] = state.position.each_mut().map(|column| column.chunks_mut(FLOWN));
-    let [u, v, w] = state.velocity.each_mut().map(|column| column.chunks_mut(FLOWN));
-    let mut chunks: Vec<_> = x
-        .zip(y)
-        .zip(z)
-        .zip(u.zip(v).zip(w))
-        .map(|(((x, y), z), ((u, v), w))| ([x, y, z], [u, v, w], T::ZERO))
-        .collect();
-    setting.workers.each(&mut chunks, |(position, velocity, fastest)| {
+    let [mut x, mut y, mut z] = state.position.each_mut().map(|column| column.chunks_mut(FLOWN));
+    let mut velocity = state.velocity.each_mut().map(|column| column.chunks_mut(FLOWN));
+    let mut low = state.low.as_mut().map(|low| {
+        let Low { position, velocity } = &mut **low;
+        [position, velocity]
+            .map(|columns| columns.each_mut().map(|column| column.chunks_mut(FLOWN)))
+    });
+    let mut chunks = Vec::with_capacity(setting.plan.bodies.div_ceil(FLOWN));
+    while let (Some(x), Some(y), Some(z)) = (x.next(), y.next(), z.next()) {
+        let low = low.as_mut().map(|[position, velocity]| [next(position), next(velocity)]);
+        chunks.push(([x, y, z], next(&mut velocity), low, T::ZERO));
+    }
+    setting.workers.each(&mut chunks, |(position, velocity, low, fastest)| {
         let position = position.each_mut().map(|column| &mut **column);
         let velocity = velocity.each_mut().map(|column| &mut **column);
-        *fastest = match periodic {
-            None => integrator.flight_and_fastest::<L, _>(
-                position,
-                velocity,
-                acceleration,
-                dt,
-                OpenSpace,
-            ),
-            Some(space) => {
-                integrator.flight_and_fastest::<L, _>(position, velocity, acceleration, dt, space)
-            }
+        let remainders = low.as_mut().map(|[position, velocity]| Remainders {
+            position: position.each_mut().map(|column| &mut **column),
+            velocity: velocity.each_mut().map(|column| &mut **column),
+        });
+        *fastest = match setting.periodic {
+            None => fly_in::<L, T, _>(setting, position, velocity, remainders, OpenSpace),
+            Some(space) => fly_in::<L, T, _>(setting, position, velocity, remainders, space),
         };
     });
-    let fastest = chunks.iter().fold(T::ZERO, |most, chunk| chunk.2.greater(most));
-    let field = acceleration.map_or(T::ZERO, Vec3::length) * dt;
-    (Lane::sqrt(fastest) + field) * dt * T::ratio(65, 64)
+    let fastest = chunks.iter().fold(T::ZERO, |most, chunk| chunk.3.greater(most));
+    let field = setting.acceleration.map_or(T::ZERO, Vec3::length) * setting.dt;
+    (Lane::sqrt(fastest) + field) * setting.dt * T::ratio(65, 64)
+}
+
+/// The next chunk of each column.
+fn next<'a, T>(columns: &mut [ChunksMut<'a, T>; 3]) -> [&'a mut [T]; 3] {
+    columns.each_mut().map(|column| column.next().unwrap_or_default())
+}
+
+/// Flies some bodies through one step and returns the greatest `v·v`.
+fn fly_in<L: Lane<Scalar = T>, T: Real, S: Wrap<T>>(
+    setting: &Setting<T>,
+    position: [&mut [T]; 3],
+    velocity: [&mut [T]; 3],
+    remainders: Option<Remainders<'_, T>>,
+    space: S,
+) -> T {
+    let &Setting { dt, acceleration, integrator, .. } = setting;
+    match remainders {
+        None => integrator.flight_and_fastest::<L, _>(position, velocity, acceleration, dt, space),
+        Some(remainders) => integrator.compensated_flight_and_fastest::<L, _>(
+            position,
+            velocity,
+            remainders,
+            acceleration,
+            dt,
+            space,
+        ),
+    }
 }
 
 /// `M ← R M` for every body.

@@ -48,7 +48,7 @@ impl<T: Real> Region<T> {
     /// The bodies of a scene at its start.
     pub fn new(setting: &Setting<T>, bodies: Bodies<T>) -> Self {
         let len = bodies.len();
-        let state = State::new(bodies, setting.plan.turning, setting.is_within_step());
+        let state = State::new(bodies, &setting.plan);
         let slots = if setting.has_contacts() { len } else { 0 };
         Self {
             nearby: Nearby {

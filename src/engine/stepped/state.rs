@@ -3,10 +3,12 @@
 use super::orientations::Orientations;
 use crate::bodies::{Bodies, Columns3, PerBody, at};
 use crate::column::Column;
-use crate::engine::plan::Turning;
+use crate::engine::plan::{Plan, Turning};
 use crate::mat3::Mat3;
+use crate::motion::flight::{Wrap, compensated_sum};
 use crate::motion::rotation::turned;
 use crate::real::Real;
+use crate::scene::{Impact, Summation};
 use crate::space::PeriodicBox;
 use crate::space::broadphase::Surveyed;
 use crate::surroundings::Feature;
@@ -25,6 +27,9 @@ pub(super) struct State<T: Real> {
     pub position: Columns3<T>,
     /// Velocities by slot, length per time.
     pub velocity: Columns3<T>,
+    /// What the rounding of positions and velocities leaves out, by slot, where
+    /// sums are compensated.
+    pub low: Option<Box<Low<T>>>,
     /// Radii by slot, length.
     pub radius: PerBody<T>,
     /// The scene's index of the body at each slot.
@@ -46,13 +51,32 @@ pub(super) struct State<T: Real> {
     spare: Column<T>,
 }
 
+/// What the rounding of sums leaves out.
+#[derive(Debug)]
+pub(super) struct Low<T: Real> {
+    /// Of positions, length.
+    pub position: Columns3<T>,
+    /// Of velocities, length per time; empty where nothing changes them in flight.
+    pub velocity: Columns3<T>,
+}
+
+impl<T: Real> Low<T> {
+    fn new(len: usize, has_field: bool) -> Self {
+        let columns = |len| core::array::from_fn(|_| Column::new(len, T::ZERO));
+        Self { position: columns(len), velocity: columns(if has_field { len } else { 0 }) }
+    }
+}
+
 impl<T: Real> State<T> {
     /// The bodies at the start. Where contacts take effect within a step, the times
     /// of orientations lie within one too.
-    pub fn new(bodies: Bodies<T>, turning: Turning, is_within_step: bool) -> Self {
+    pub fn new(bodies: Bodies<T>, plan: &Plan) -> Self {
         let len = bodies.len();
+        let turning = plan.turning;
+        let is_compensated = plan.summation == Summation::Compensated;
         let mut state = Self {
-            orientations: Orientations::new(turning, len, is_within_step),
+            orientations: Orientations::new(turning, len, plan.impact == Impact::SubStep),
+            low: is_compensated.then(|| Box::new(Low::new(len, plan.has_field))),
             index: (0..len as u32).collect(),
             inverse_mass: bodies.mass.map(|mass| T::ONE / mass),
             inverse_inertia: bodies.inertia.map(|inertia| T::ONE / inertia),
@@ -78,7 +102,11 @@ impl<T: Real> State<T> {
             PerBody::Same(_) => None,
             PerBody::Each(column) => Some(column),
         };
-        for column in hot.chain(radius) {
+        let low = self.low.iter_mut().flat_map(|low| {
+            let Low { position, velocity } = &mut **low;
+            position.iter_mut().chain(velocity)
+        });
+        for column in hot.chain(radius).chain(low).filter(|column| !column.is_empty()) {
             let mut chunks: Vec<_> =
                 self.spare.chunks_mut(REORDERED).zip(order.chunks(REORDERED)).collect();
             workers.each(&mut chunks, |(slots, order)| {
@@ -90,6 +118,33 @@ impl<T: Real> State<T> {
         }
         let index: Vec<u32> = order.iter().map(|&from| self.index[from as usize]).collect();
         self.index = index;
+    }
+
+    /// Moves the body in a slot, within its space.
+    #[inline]
+    pub fn shift(&mut self, slot: usize, way: Vec3<T>, periodic: Option<PeriodicBox<T>>) {
+        let mut position = at(&self.position, slot);
+        match &mut self.low {
+            None => position += way,
+            Some(low) => {
+                let rest;
+                (position, rest) = compensated_sum(position, at(&low.position, slot), way);
+                put(&mut low.position, slot, rest);
+            }
+        }
+        let position = periodic.map_or(position, |space| space.wrap(position));
+        put(&mut self.position, slot, position);
+    }
+
+    /// Gives the body in a slot a velocity.
+    #[inline]
+    pub fn set_velocity(&mut self, slot: usize, velocity: Vec3<T>) {
+        put(&mut self.velocity, slot, velocity);
+        if let Some(low) = &mut self.low
+            && !low.velocity[0].is_empty()
+        {
+            put(&mut low.velocity, slot, Vec3::ZERO);
+        }
     }
 
     /// What the broad phase looks at.
@@ -202,6 +257,7 @@ impl<T: Real> State<T> {
         let three = |columns: &Columns3<T>| columns.iter().map(Column::bytes).sum::<usize>();
         three(&self.position)
             + three(&self.velocity)
+            + self.low.as_ref().map_or(0, |low| three(&low.position) + three(&low.velocity))
             + three(&self.spin)
             + self.orientation.as_ref().map_or(0, |rows| rows.iter().map(Column::bytes).sum())
             + self.radius.bytes()
