@@ -63,6 +63,23 @@ pub struct Clearance<L> {
     pub arm: Vec3<L>,
 }
 
+impl<L: Lane> Clearance<L> {
+    /// How far a sphere is to be moved so that the two surfaces just touch, length.
+    ///
+    /// ```
+    /// use carom::surroundings::{Feature, Plane};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let floor = Feature::from(Plane::new([0.0; 3], [0.0, 0.0, 1.0]));
+    /// let clearance = floor.clearance(Vec3::new(7.0, 0.0, 3.0), 1.0);
+    /// assert_eq!(clearance.way_to_touch().to_array(), [0.0, 0.0, -2.0]);
+    /// ```
+    #[inline(always)]
+    pub fn way_to_touch(&self) -> Vec3<L> {
+        -(self.arm * (self.gap / self.arm.length()))
+    }
+}
+
 impl<T: Real> Shape<T> {
     /// The corners of the box around the solid; `None` for one without end.
     pub(crate) fn bounds(&self) -> Option<[Vec3<T>; 2]> {
@@ -154,6 +171,12 @@ impl<T: Real> Feature<T> {
     ) -> Option<T> {
         let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
         Obstacle::contact_time(self, &flight)
+    }
+
+    /// Whether it is curved towards the spheres: one that grazes it follows it in
+    /// shorter and shorter flights.
+    pub fn is_hollow(&self) -> bool {
+        Obstacle::is_hollow(self)
     }
 
     /// The largest coordinate that the clearance is made of, length.

@@ -53,7 +53,7 @@ impl<T: Real> Frame<T> {
         let distance = radius.max(extent(scene) / bodies.cbrt());
         let frame = Self {
             origin,
-            length: far_exponent::<T>(radius),
+            length: far_exponent::<T>(distance),
             time: if speed > 0.0 { far_exponent::<T>(distance / speed) } else { 0 },
             mass: far_exponent::<T>(scene.bodies.mass.greatest().to_f64()),
         };

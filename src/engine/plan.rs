@@ -152,7 +152,11 @@ fn has_short_steps<T: Real>(scene: &Scene<T>) -> bool {
     let bodies = &scene.bodies;
     let greatest = |most: f64, value: f64| most.max(value.abs());
     let coordinates = bodies.position.iter().flat_map(|column| column.iter());
-    let mut extent = coordinates.map(|&x| x.to_f64()).fold(0.0, greatest);
+    // Bodies do not stay in the origin.
+    let extent = bodies.radius.greatest().to_f64();
+    let mut extent = coordinates.map(|&x| x.to_f64()).fold(extent, greatest);
+    let points = scene.surroundings.iter().flat_map(|shape| shape.points());
+    extent = points.flat_map(Vec3::to_array).map(T::to_f64).fold(extent, greatest);
     if let Some(space) = scene.periodic {
         let corners = [space.lower, space.upper].map(Vec3::to_array);
         extent = corners.iter().flatten().map(|&x| x.to_f64()).fold(extent, greatest);

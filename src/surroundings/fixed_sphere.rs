@@ -105,6 +105,10 @@ impl<T: Real> Obstacle<T> for FixedSphere<T> {
     fn farthest(&self) -> f64 {
         greatest_component(self.center.cast::<f64>()) + self.radius.to_f64()
     }
+
+    fn is_hollow(&self) -> bool {
+        self.inside
+    }
 }
 
 const CENTER: Key = Key::new("center", Meaning::Point);

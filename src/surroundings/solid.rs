@@ -24,6 +24,12 @@ pub(crate) trait Obstacle<T: Real> {
     /// The largest coordinate that its clearance is made of, length: what the
     /// clearance's rounding is measured by.
     fn farthest(&self) -> f64;
+
+    /// Whether it is curved towards the spheres, which can follow it in shorter and
+    /// shorter flights: rounding of their distance would add up.
+    fn is_hollow(&self) -> bool {
+        false
+    }
 }
 
 /// A fixed solid, as a scene names it: the scene's side of a shape.
@@ -242,6 +248,12 @@ macro_rules! solids {
             fn farthest(&self) -> f64 {
                 match self {
                     $(Self::$solid(solid) => solid.farthest(),)*
+                }
+            }
+
+            fn is_hollow(&self) -> bool {
+                match self {
+                    $(Self::$solid(solid) => Obstacle::is_hollow(solid),)*
                 }
             }
         }

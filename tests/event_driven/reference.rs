@@ -170,7 +170,8 @@ impl<'a, T: Real> Reference<'a, T> {
         let balls =
             (0..self.balls.len()).flat_map(|a| (0..self.features.len()).map(move |f| (a, f)));
         let pairs = pairs.filter_map(|(a, b)| Some((self.meeting(a, b)?, (a, true, b))));
-        pairs.chain(balls.filter_map(|(a, f)| Some((self.contact(a, f)?, (a, false, f)))))
+        let contact = |a: usize, f: usize| Some(self.balls[a].since + self.wait(a, f)?);
+        pairs.chain(balls.filter_map(move |(a, f)| Some((contact(a, f)?, (a, false, f)))))
     }
 
     /// When two balls meet: worked out from their states where the later of the
@@ -199,8 +200,8 @@ impl<'a, T: Real> Reference<'a, T> {
         times.reduce(T::lesser)
     }
 
-    /// When a ball comes to a feature.
-    fn contact(&self, ball: usize, feature: usize) -> Option<T> {
+    /// From the start of a ball's flight to when it comes to a feature.
+    fn wait(&self, ball: usize, feature: usize) -> Option<T> {
         let is_last = self.balls[ball].last == Met::Feature(feature);
         let ball = &self.balls[ball];
         let feature = &self.features[feature].0;
@@ -223,7 +224,7 @@ impl<'a, T: Real> Reference<'a, T> {
             let is_leaving = is_last && is_near && !closes;
             feature.contact_time(center, ball.velocity, acceleration, ball.radius, is_leaving)
         });
-        times.reduce(T::lesser).map(|wait| ball.since + wait)
+        times.reduce(T::lesser)
     }
 
     /// Ends the flight of a ball, and gives it as a party of a contact.
@@ -275,7 +276,16 @@ impl<'a, T: Real> Reference<'a, T> {
             let Party { velocity, spin, .. } = party_b;
             partner = Partner::Body { index: b as u32, velocity, spin };
         } else {
+            let is_hollow = self.features[b].0.is_hollow() && self.scene.periodic.is_none();
+            let wait = if is_hollow { self.wait(a, b) } else { None };
+            let started = Ball { since: T::ZERO, ..self.balls[a] };
             let mut party = self.arrive(a, T::ONE, Met::Feature(b));
+            if let Some(wait) = wait {
+                // From the start of the flight, not by the rounded time.
+                let (position, velocity) = self.at(&started, wait);
+                (self.balls[a].position, self.balls[a].velocity) = (position, velocity);
+                party.velocity = velocity;
+            }
             let (feature, part) = &self.features[b];
             partner = Partner::Surroundings(*part);
             let images = self.scene.periodic.map_or(vec![Vec3::ZERO], PeriodicBox::images);
@@ -284,7 +294,13 @@ impl<'a, T: Real> Reference<'a, T> {
                 .into_iter()
                 .map(|shift| feature.clearance(ball.position - shift, ball.radius));
             let nearest = clearances.reduce(|a, b| if b.gap.abs() < a.gap.abs() { b } else { a });
-            arm = nearest.unwrap().arm;
+            let nearest = nearest.unwrap();
+            arm = if is_hollow {
+                self.balls[a].position += nearest.way_to_touch();
+                feature.clearance(self.balls[a].position, self.balls[a].radius).arm
+            } else {
+                nearest.arm
+            };
             offset = arm;
             impulse = self.collide(arm, &mut party, &mut Party::immovable());
             self.depart(a, &party);
@@ -307,6 +323,16 @@ impl<'a, T: Real> Reference<'a, T> {
     /// of two below the time for eight mean distances at the mean speed.
     fn begin_period(&mut self, end: T) {
         for k in 0..self.balls.len() {
+            let is_hollow = match self.balls[k].last {
+                Met::Feature(feature) => self.features[feature].0.is_hollow(),
+                _ => false,
+            };
+            let is_coarsest = size_of::<T::Coarse>() == size_of::<T>();
+            let is_open = self.scene.periodic.is_none();
+            if is_hollow && is_coarsest && is_open && self.balls[k].since > T::ZERO {
+                self.balls[k].since = self.balls[k].since - end;
+                continue;
+            }
             let (position, velocity) = self.at(&self.balls[k], end);
             let position = self.scene.periodic.map_or(position, |space| space.wrap(position));
             self.balls[k] = Ball { position, velocity, since: T::ZERO, ..self.balls[k] };

@@ -115,7 +115,7 @@ fn values_out_of_range() {
 fn steps_that_are_missing_or_too_many() {
     let built = |text: &str| SceneFile::parse("s", text).unwrap().build::<f64>();
     assert_starts(
-        &built(BALL).unwrap_err().to_string(),
+        &built(&format!("engine = \"stepped\"\n{BALL}")).unwrap_err().to_string(),
         "s: stepped.dt is missing; the stepped engine has no default for it: set `dt` under \
          [stepped], or --dt",
     );
@@ -125,6 +125,7 @@ fn steps_that_are_missing_or_too_many() {
     let error = Stepped::new(ball()).unwrap_err();
     assert!(error.to_string().contains("`.dt()` of the builder"), "{error}");
     EventDriven::new(ball()).unwrap();
+    built(BALL).unwrap();
     built(&format!("engine = \"event-driven\"\n{BALL}")).unwrap();
     let error = built(&format!("duration = 1e9\nstepped.dt = 1e-9\n{BALL}")).unwrap_err();
     assert_starts(&error.to_string(), "s:2: stepped.dt is 1e-9; that is 1e18 steps, ");

@@ -5,6 +5,7 @@ mod exact;
 mod laws;
 mod reference;
 mod same_bits;
+mod sums;
 
 #[path = "../common/mod.rs"]
 mod common;

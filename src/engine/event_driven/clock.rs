@@ -73,6 +73,17 @@ impl<T: Real> Clock<T> {
         self.origin.value() + time.to_f64()
     }
 
+    /// The first time since the start of the run, but for rounding, that is not before
+    /// a time of the present period: a world that is advanced to it has had all
+    /// collisions up to that one.
+    pub fn not_before(&self, time: T) -> f64 {
+        let mut now = self.since_start(time);
+        while self.in_period(now) < time {
+            now = now.next_up();
+        }
+        now
+    }
+
     /// Now, since the period's start.
     pub fn now(&self) -> T {
         self.in_period(self.time)

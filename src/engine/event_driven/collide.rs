@@ -3,7 +3,9 @@
 use super::agenda::{Mark, PartnerCode};
 use super::clock::Clock;
 use super::crossing::plan_crossing;
+use super::features::time_to_feature;
 use super::flight::{Flight, Record};
+use super::near::Image;
 use super::period::end_flight;
 use super::region::Region;
 use super::search::search;
@@ -15,6 +17,7 @@ use crate::engine::account::Account;
 use crate::engine::{Event, Listener, Partner};
 use crate::real::Real;
 use crate::space::Space;
+use crate::surroundings::Clearance;
 use crate::vec3::Vec3;
 
 /// The bodies in two slots collide.
@@ -76,8 +79,12 @@ pub(super) fn collide_with_feature<T: Real>(
     on_event: &mut Listener<'_, T>,
 ) {
     let at = slot as usize;
+    let touching = touching_hollow(setting, region, slot, feature);
     end_flight(setting, region, account, at, time, time);
-    let arm = arm(setting, region, at, feature);
+    if let Some(flight) = touching {
+        region.records[at] = Record::new(Flight { since: time, ..flight });
+    }
+    let arm = clearance(setting, region, at, feature).arm;
     let mut own = party(setting, region, at, T::ONE);
     let impulse = collide(setting, arm, &mut own, &mut Party::immovable());
     depart(setting, region, at, &own, PartnerCode::feature(feature), clock.too_fast);
@@ -90,9 +97,35 @@ pub(super) fn collide_with_feature<T: Real>(
     look_ahead(setting, region, account, slot, time, clock.period);
 }
 
-/// From the point of contact with a feature, of all its images the one that is
-/// touched, to the centre of the body in a slot.
-fn arm<T: Real>(setting: &Setting<T>, region: &Region<T>, slot: usize, feature: u32) -> Vec3<T> {
+/// The flight of the body in a slot where it touches a feature that is curved towards
+/// it; `None` of other features. Along such a one flights are shorter than the rounding
+/// of times and places allows: the time is taken from the flight's own start, and the
+/// surfaces touch exactly.
+fn touching_hollow<T: Real>(
+    setting: &Setting<T>,
+    region: &Region<T>,
+    slot: u32,
+    feature: u32,
+) -> Option<Flight<T>> {
+    let is_hollow = setting.features[feature as usize].is_hollow();
+    if !is_hollow || setting.periodic.is_some() {
+        return None;
+    }
+    let wait = time_to_feature(setting, region, slot, Image { feature, image: 0 })?;
+    let flight = region.records[slot as usize].flight();
+    let (position, velocity) = setting.state_of(&Flight { since: T::ZERO, ..flight }, wait);
+    let clearance = setting.features[feature as usize].clearance(position, flight.radius);
+    Some(Flight { position: position + clearance.way_to_touch(), velocity, ..flight })
+}
+
+/// Where the body in a slot stands to a feature, of all its images the one that is
+/// touched.
+fn clearance<T: Real>(
+    setting: &Setting<T>,
+    region: &Region<T>,
+    slot: usize,
+    feature: u32,
+) -> Clearance<T> {
     let flight = region.records[slot].flight();
     let feature = &setting.features[feature as usize];
     let clearances = setting
@@ -100,7 +133,7 @@ fn arm<T: Real>(setting: &Setting<T>, region: &Region<T>, slot: usize, feature: 
         .iter()
         .map(|shift| feature.clearance(flight.position - *shift, flight.radius));
     let touched = clearances.reduce(|a, b| if b.gap.abs() < a.gap.abs() { b } else { a });
-    touched.map_or(Vec3::ZERO, |clearance| clearance.arm)
+    touched.unwrap_or(Clearance { gap: T::ZERO, arm: Vec3::ZERO })
 }
 
 /// The body in a slot as a party of a collision.

@@ -84,7 +84,7 @@ impl<T: Real> EventEngine<T> for Driver<T> {
                 }
             }
             if self.account.collisions.total() == last {
-                let now = self.clock.since_start(self.clock.last_collision);
+                let now = self.clock.not_before(self.clock.last_collision);
                 // Not beyond the end, up to which it may have been rounded.
                 self.clock.time = self.clock.time.max(now).min(time);
                 return Ok(false);

@@ -32,12 +32,22 @@ pub(super) fn search_features_of_cell<T: Real>(
     }
 }
 
-fn expect_feature<T: Real>(
+fn expect_feature<T: Real>(setting: &Setting<T>, region: &mut Region<T>, slot: u32, image: Image) {
+    if let Some(wait) = time_to_feature(setting, region, slot, image) {
+        let time = region.records[slot as usize].flight().since + wait;
+        let partner = PartnerCode::feature(image.feature);
+        keep(region, slot, Expected { time, partner, changes: 0 });
+    }
+}
+
+/// From the start of the flight of the body in a slot to its contact with an image of a
+/// feature, time.
+pub(super) fn time_to_feature<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
+    region: &Region<T>,
     slot: u32,
     Image { feature, image }: Image,
-) {
+) -> Option<T> {
     let at = slot as usize;
     let flight = region.records[at].flight();
     let partner = PartnerCode::feature(feature);
@@ -56,11 +66,7 @@ fn expect_feature<T: Real>(
         && (setting.periodic.is_none() || has_just_left(setting, feature, center, flight.radius))
         && (flight.since > T::ZERO || !is_closing(feature, &flight, center));
     let acceleration = setting.plan.has_field.then_some(setting.gravity);
-    let wait =
-        feature.contact_time(center, flight.velocity, acceleration, flight.radius, is_leaving);
-    if let Some(wait) = wait {
-        keep(region, slot, Expected { time: flight.since + wait, partner, changes: 0 });
-    }
+    feature.contact_time(center, flight.velocity, acceleration, flight.radius, is_leaving)
 }
 
 /// Whether a sphere that comes from a contact with some image of a feature

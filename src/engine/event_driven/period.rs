@@ -18,6 +18,7 @@ use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::space::Space;
+use crate::vec3::Vec3;
 
 /// How far bodies fly in a period, in mean distances, at the mean speed.
 const FLIGHT: f64 = 8.0;
@@ -44,7 +45,14 @@ pub(super) fn begin_period<T: Real>(
     end: T,
 ) {
     for slot in 0..region.records.len() {
-        end_flight(setting, region, account, slot, end, T::ZERO);
+        if follows_hollow(setting, region, slot) {
+            let flight = region.records[slot].flight();
+            let since = flight.since - end;
+            region.records[slot] = Record::new(Flight { since, ..flight });
+            turn(region, slot, end, T::ZERO);
+        } else {
+            end_flight(setting, region, account, slot, end, T::ZERO);
+        }
     }
     let counted = clock.end_period(end);
     region.is_too_fast = false;
@@ -84,10 +92,31 @@ pub(super) fn end_flight<T: Real>(
         *cell = region.cells.finest().turned_back(*cell, turns);
     }
     region.records[slot] = Record::new(flight);
+    turn(region, slot, time, since);
+}
+
+/// Brings the orientation of the body in a slot up to a time, which is `since` in the
+/// next period.
+#[inline(always)]
+fn turn<T: Real>(region: &mut Region<T>, slot: usize, time: T, since: T) {
     if let Some((orientation, turned_at)) = region.turned.get_mut(slot) {
         *orientation = turned(*orientation, region.spins[slot], time - *turned_at);
         *turned_at = since;
     }
+}
+
+/// Whether the body in a slot has just left a feature that is curved towards it. In
+/// flat flights along such a one its height is less than the rounding of its place, so
+/// the flight goes on from the contact. Screening in a coarser precision counts on
+/// flights that start within the period; where there is it, digits are enough.
+fn follows_hollow<T: Real>(setting: &Setting<T>, region: &Region<T>, slot: usize) -> bool {
+    let is_hollow = |feature: u32| {
+        setting.features.get(feature as usize).is_some_and(|feature| feature.is_hollow())
+    };
+    !setting.plan.has_screening
+        && setting.periodic.is_none()
+        && region.records[slot].flight().since > T::ZERO
+        && region.marks[slot].last.decoded().is_err_and(is_hollow)
 }
 
 /// The power of two nearest below the time that bodies take for a few mean
@@ -135,11 +164,13 @@ fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -
 
 /// Sorts the bodies by cell: neighbours in space become neighbours in memory.
 fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
+    let starts: Vec<Vec3<T>> =
+        (0..region.records.len()).map(|slot| region.state_of(setting, slot, T::ZERO).0).collect();
     let cells = &mut region.cells;
     cells.clear();
     let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(region.records.len());
-    for (slot, record) in region.records.iter().enumerate() {
-        let cell = cells.finest().cell_of(record.flight().position);
+    for (slot, &start) in starts.iter().enumerate() {
+        let cell = cells.finest().cell_of(start);
         order.push((cells.finest().number_of(cell), region.index[slot], slot as u32));
     }
     order.sort_unstable();
@@ -150,8 +181,8 @@ fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
         region.turned = reordered(&region.turned, &order);
     }
     region.marks = reordered(&region.marks, &order);
-    let agenda = |record: &Record<T>| Agenda::new(cells.finest().cell_of(record.flight().position));
-    region.agendas = region.records.iter().map(agenda).collect();
+    let agenda = |start: Vec3<T>| Agenda::new(cells.finest().cell_of(start));
+    region.agendas = reordered(&starts, &order).into_iter().map(agenda).collect();
     if setting.plan.has_pairs {
         for (slot, agenda) in region.agendas.iter().enumerate() {
             let level = region.level_of(slot);

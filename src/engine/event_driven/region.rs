@@ -8,7 +8,6 @@ use super::meeting::Meetings;
 use super::setting::Setting;
 use crate::engine::plan::Turning;
 use crate::mat3::Mat3;
-use crate::motion::integrator::{Coasting, VelocityVerlet};
 use crate::real::Real;
 use crate::space::levels::Levels;
 use crate::vec3::Vec3;
@@ -75,12 +74,7 @@ impl<T: Real> Region<T> {
     /// Centre and velocity of the body in a slot, at a time of this period.
     #[inline(always)]
     pub fn state_of(&self, setting: &Setting<T>, slot: usize, time: T) -> (Vec3<T>, Vec3<T>) {
-        let flight = self.records[slot].flight();
-        if setting.plan.has_field {
-            flight.at::<VelocityVerlet>(time, setting.gravity)
-        } else {
-            flight.at::<Coasting>(time, setting.gravity)
-        }
+        setting.state_of(&self.records[slot].flight(), time)
     }
 
     /// Angular velocity of the body in a slot.

@@ -1,10 +1,12 @@
 //! Setting: what all workers read and none writes.
 
+use super::flight::Flight;
 use super::near::{self, Near};
 use super::search::{Search, further, searcher};
 use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
 use crate::engine::plan::{Plan, Turning};
+use crate::motion::integrator::{Coasting, VelocityVerlet};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::space::cells::{Ends, Span};
@@ -94,6 +96,16 @@ impl<T: Real> Setting<T> {
             plan,
         };
         (setting, cells)
+    }
+
+    /// Centre and velocity on a flight at a time.
+    #[inline(always)]
+    pub fn state_of(&self, flight: &Flight<T>, time: T) -> (Vec3<T>, Vec3<T>) {
+        if self.plan.has_field {
+            flight.at::<VelocityVerlet>(time, self.gravity)
+        } else {
+            flight.at::<Coasting>(time, self.gravity)
+        }
     }
 
     /// Gives up what the region keeps now.
