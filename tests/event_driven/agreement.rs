@@ -105,8 +105,8 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
     });
     // Far off, where positions have some digits less, and not so far that the engine
     // computes about an origin of its own.
-    let is_far = random.random_bool(0.2);
-    let lower = if is_far { [10.0 * sides[0], -20.0 * sides[1], 0.0] } else { [0.0; 3] };
+    let is_far = random.random_bool(0.2) && count > 5;
+    let lower = if is_far { [4.0 * sides[0], -6.0 * sides[1], 0.0] } else { [0.0; 3] };
     let upper = core::array::from_fn(|k| lower[k] + sides[k]);
     // Some fast ones among many that hardly move.
     let decades = if random.random_bool(0.25) { 3.0 } else { 0.0 };

@@ -126,7 +126,7 @@ impl<'a, T: Real> Reference<'a, T> {
             match first {
                 Some((time, with)) if time <= self.now + window => {
                     self.now = time;
-                    let time = self.origin.value() + time.to_f64();
+                    let time = self.not_before(time);
                     return (time <= until).then(|| self.happen(with));
                 }
                 _ if self.origin.value() + self.now.to_f64() > until => return None,
@@ -134,6 +134,18 @@ impl<'a, T: Real> Reference<'a, T> {
                 _ => self.begin_period(self.period),
             }
         }
+    }
+
+    /// The first time since the start that is not before one of the period.
+    fn not_before(&self, time: T) -> f64 {
+        let mut now = self.origin.value() + time.to_f64();
+        let in_period = |now: f64| {
+            T::from_f64(now - self.origin.value()) - T::from_f64(self.origin.remainder())
+        };
+        while in_period(now) < time {
+            now = now.next_up();
+        }
+        now
     }
 
     /// Centre and velocity at a time.
@@ -307,7 +319,7 @@ impl<'a, T: Real> Reference<'a, T> {
         }
         let ball = &self.balls[a];
         Collision {
-            time: self.origin.value() + self.now.to_f64(),
+            time: self.not_before(self.now),
             a: a as u32,
             partner,
             point: ball.position - arm,

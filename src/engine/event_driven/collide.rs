@@ -219,7 +219,7 @@ fn event<T: Real>(
     let Contact { slot, time, arm, offset } = contact;
     let flight = region.records[slot].flight();
     Event {
-        time: clock.since_start(time),
+        time: clock.not_before(time),
         a: region.index[slot],
         partner,
         point: flight.position - arm,
