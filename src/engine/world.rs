@@ -31,10 +31,12 @@ impl<T: Compiled> World<T> {
     ///
     /// ```
     /// use carom::engine::World;
+    /// use carom::scene::EngineKind;
     /// use carom::{Execution, Scene, Sphere};
     ///
     /// let ball = Sphere::new([0.0; 3]).radius(0.5);
-    /// let scene = Scene::<f64>::builder().dt(1e-3).sphere(ball).build()?;
+    /// let scene = Scene::<f64>::builder().engine(EngineKind::Stepped).dt(1e-3).sphere(ball);
+    /// let scene = scene.build()?;
     /// let world = World::new(scene, Execution::default())?;
     /// assert!(matches!(world, World::Stepped(_)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
