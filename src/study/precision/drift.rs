@@ -139,8 +139,8 @@ impl Drift {
         };
         let exponent = jackknife(&tracks, slope);
         // Runs that are all the same have no error, and say no more than one.
-        let is_told = exponent.value.is_finite() && exponent.error > SAME_RUNS;
-        let exponent = is_told.then_some(exponent);
+        let is_seen = exponent.value.is_finite() && exponent.error > SAME_RUNS;
+        let exponent = is_seen.then_some(exponent);
         let law = match points.iter().all(|point| point.1 < epsilon) {
             true => Law::BelowEpsilon,
             false => Law::of(exponent),
