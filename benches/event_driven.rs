@@ -62,7 +62,7 @@ const FIGURES: [(f64, u64, Option<f64>, Option<f64>); 12] = [
 ];
 
 /// Bytes a body of the same code and carom's goal.
-const BYTES: &str = "2,130 at density .5, 412 at .9; carom's goal is 250";
+const BYTES: &str = "2,130 at density 0.5, 412 at 0.9; carom's goal is 250";
 
 /// What moves.
 #[derive(Clone, Copy)]

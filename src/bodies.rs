@@ -24,6 +24,14 @@ use crate::vec3::Vec3;
 pub use builder::{BodiesBuilder, BodiesError};
 
 /// The three components of a vector, a column each.
+///
+/// ```
+/// use carom::bodies::Columns3;
+/// use carom::column::Column;
+///
+/// let origin: Columns3<f64> = std::array::from_fn(|_| Column::new(10, 0.0));
+/// assert_eq!(origin[2].len(), 10);
+/// ```
 pub type Columns3<T> = [Column<T>; 3];
 
 /// A figure of each body, stored only where the bodies differ in it.
@@ -127,6 +135,11 @@ pub trait Figure<T: Real>: Copy + Send + Sync {
 }
 
 /// One figure for all bodies: nothing is loaded.
+///
+/// ```
+/// use carom::bodies::{Figure, Same};
+/// assert_eq!(Same(0.5).load::<f64>(7), 0.5);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Same<T>(pub T);
 
@@ -175,6 +188,19 @@ impl<T: Real> Figure<T> for &[T] {
 /// Vectors are in the world frame. Every column has [`len`](Bodies::len)
 /// elements. Columns are read and written in place; see the
 /// [module](self) for how to make bodies from arrays.
+///
+/// ```
+/// use carom::Bodies;
+///
+/// let positions = [[0.0; 3], [2.0, 0.0, 0.0]];
+/// let mut bodies = Bodies::from_positions(&positions).radius(0.5).build()?;
+/// bodies.velocity[0].fill(1.0);
+/// bodies.position[2][1] = 3.0;
+/// assert_eq!(bodies.velocity_of(1).to_array(), [1.0, 0.0, 0.0]);
+/// assert_eq!(bodies.position_of(1).z, 3.0);
+/// assert_eq!((bodies.len(), bodies.is_empty()), (2, false));
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Bodies<T: Real> {
@@ -262,6 +288,17 @@ impl<T: Real> Bodies<T> {
     }
 
     /// Centre of body `index`, length.
+    ///
+    /// ```
+    /// # use carom::Bodies;
+    /// let ball = Bodies::from_positions(&[[1.0, 2.0, 3.0]]).spins(&[[0.0, 0.0, 4.0]]);
+    /// let ball = ball.radius(0.5).build()?;
+    /// assert_eq!(ball.position_of(0).to_array(), [1.0, 2.0, 3.0]);
+    /// assert_eq!(ball.velocity_of(0).to_array(), [0.0; 3]);
+    /// assert_eq!(ball.spin_of(0).z, 4.0);
+    /// assert_eq!(ball.orientation_of(0), carom::mat3::Mat3::IDENTITY);
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
     ///
     /// # Panics
     /// If there are no more than `index` bodies, as the next three.

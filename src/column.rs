@@ -26,6 +26,11 @@ pub struct Column<T: Real> {
 
 impl<T: Real> Column<T> {
     /// The widest lane, to a multiple of which a column is padded.
+    ///
+    /// ```
+    /// use carom::column::Column;
+    /// assert_eq!(Column::<f64>::new(1, 0.0).padded().len(), Column::<f64>::WIDEST);
+    /// ```
     pub const WIDEST: usize = 16;
 
     /// A column of `len` equal values, the padding included.
@@ -73,6 +78,13 @@ impl<T: Real> Column<T> {
     }
 
     /// The values with the padding behind them.
+    ///
+    /// ```
+    /// use carom::column::Column;
+    /// let mut column = Column::new(2, 0.0_f32);
+    /// column.padded_mut().fill(1.0);
+    /// assert_eq!((column[1], column.padded()[15]), (1.0, 1.0));
+    /// ```
     #[inline]
     #[must_use]
     pub fn padded_mut(&mut self) -> &mut [T] {
@@ -80,6 +92,11 @@ impl<T: Real> Column<T> {
     }
 
     /// The bytes that the column holds in memory.
+    ///
+    /// ```
+    /// use carom::column::Column;
+    /// assert_eq!(Column::new(10, 0.0_f64).bytes(), 16 * 8);
+    /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(self.blocks.as_slice())

@@ -52,6 +52,11 @@ pub enum Lanes {
 
 impl Lanes {
     /// What the program calls it.
+    ///
+    /// ```
+    /// use carom::Lanes;
+    /// assert_eq!((Lanes::Auto.name(), Lanes::Sixteen.name()), ("auto", "16"));
+    /// ```
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -71,6 +76,12 @@ impl fmt::Display for Lanes {
 }
 
 /// The most worker threads that the program and the studies ask for.
+///
+/// ```
+/// use carom::Execution;
+/// use carom::engine::MOST_THREADS;
+/// assert!(Execution::new().threads(4).threads <= MOST_THREADS);
+/// ```
 pub const MOST_THREADS: usize = 1024;
 
 /// On what a scene is run; it changes no bit of the result.
@@ -90,11 +101,6 @@ pub const MOST_THREADS: usize = 1024;
 #[non_exhaustive]
 pub struct Execution {
     /// How many reals a kernel works on at once.
-    ///
-    /// ```
-    /// use carom::Lanes;
-    /// assert_eq!(Lanes::Eight.to_string(), "8");
-    /// ```
     pub lanes: Lanes,
     /// Worker threads; 0 takes all cores.
     pub threads: usize,
@@ -102,6 +108,12 @@ pub struct Execution {
 
 impl Execution {
     /// The fastest lanes, and all cores.
+    ///
+    /// ```
+    /// use carom::{Execution, Lanes};
+    /// assert_eq!(Execution::new(), Execution::default());
+    /// assert_eq!(Execution::new().lanes(Lanes::Four).threads(2).threads, 2);
+    /// ```
     #[must_use]
     pub const fn new() -> Self {
         Self { lanes: Lanes::Auto, threads: 0 }
@@ -193,7 +205,7 @@ pub enum EngineError {
     /// An event-driven world can't be advanced by this.
     #[error("a world can't be advanced by {0}; give a finite duration from 0 up")]
     NoDuration(f64),
-    /// Collision follows upon collision while time stands still.
+    /// Collisions follow each other while time stands still.
     #[error(
         "time stands still at {time:?}: {events} events in a row without progress, the last one of \
          sphere {body}; a sphere that rests on something, or is wedged in, never stops colliding: \

@@ -1,6 +1,6 @@
 //! Studies: what a method costs, and how far off it is.
 //!
-//! | study | what it tells |
+//! | study | what it shows |
 //! |---|---|
 //! | [`work_precision`] | run time against error of engines, integrators, impacts, steps, precisions |
 //! | [`precision`] | what a scene loses in `f32` and `f64`, beside double-double |

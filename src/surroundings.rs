@@ -139,7 +139,7 @@ impl<T: Real> Feature<T> {
     ///
     /// What overlaps the feature, by rounding, counts as touching it: it
     /// collides now, at time 0, if it approaches, and later, when it comes back
-    /// to where it is, if it does not. `is_leaving` tells that the sphere has
+    /// to where it is, if it does not. `is_leaving` says that the sphere has
     /// just bounced off this feature: it does not approach then, whatever
     /// rounding says. One that rests on the feature under a force collides now.
     ///

@@ -23,7 +23,7 @@ pub fn benches<T: Real>(criterion: &mut Criterion) {
     sweep::measure::<T, Turning<T>>(criterion, "rotation/sweep");
 }
 
-/// Angular velocities of about .01 rad per step.
+/// Angular velocities of about 0.01 rad per step.
 fn spins<T: Real>(bodies: usize) -> [Column<T>; 3] {
     uniform(bodies, -0.01, 0.01, 2)
 }

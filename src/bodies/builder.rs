@@ -5,6 +5,12 @@ use crate::column::Column;
 use crate::real::Real;
 
 /// Why arrays make no bodies.
+///
+/// ```
+/// use carom::Bodies;
+/// use carom::bodies::BodiesError;
+/// assert_eq!(Bodies::from_positions(&[[0.0; 3]]).build(), Err(BodiesError::NoRadius));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BodiesError {
@@ -51,6 +57,23 @@ impl<T: Real> Given<'_, T> {
 ///
 /// Nothing but the positions and the radius must be given. Without more the
 /// bodies are at rest, of mass 1, and solid: `I = 2/5 m r²`.
+///
+/// ```
+/// use carom::Bodies;
+///
+/// let quarter_turn = [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+/// let bodies = Bodies::from_positions(&[[0.0; 3], [3.0, 0.0, 0.0]])
+///     .velocities(&[[1.0, 0.0, 0.0], [0.0; 3]])
+///     .spins(&[[0.0, 0.0, 2.0], [0.0; 3]])
+///     .orientations(&[quarter_turn; 2])
+///     .radii(&[1.0, 0.5]) // or .radius(1.0)
+///     .masses(&[8.0, 1.0]) // or .mass(1.0)
+///     .inertia_factor(0.5)
+///     .build()?;
+/// assert_eq!((bodies.inertia.of(0), bodies.inertia.of(1)), (4.0, 0.125));
+/// assert_eq!(bodies.orientation_of(1).rows(), quarter_turn);
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[must_use]
 pub struct BodiesBuilder<'a, T: Real> {

@@ -113,7 +113,7 @@ struct Samples {
 impl Samples {
     fn new(first: Temperature, surface: Surface) -> Self {
         // Rough contacts exchange energy between motion and spin: the ends of a
-        // run do not tell what was in between.
+        // run do not show what was in between.
         let spans = if surface.changes_spins() { 32 } else { 1 };
         Self { spans, passed: 0, last_position: 0.0, last: first.translational, integral: 0.0 }
     }

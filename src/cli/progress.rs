@@ -9,7 +9,7 @@ use carom::scene::EngineKind;
 use carom::study::Course;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
-/// How finely the bar tells how far the run is.
+/// How finely the bar shows how far the run is.
 const GRAINS: f64 = 1e6;
 
 /// A bar on standard error, if that is a terminal.

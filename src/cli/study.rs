@@ -25,7 +25,7 @@ pub enum Study {
     ///
     /// Engines, integrators, impacts, steps, precisions, lanes and threads are
     /// compared from the same start with a run in double-double at exact times.
-    /// The report tells the orders of convergence and the fastest method for each
+    /// The report has the orders of convergence and the fastest method for each
     /// size of the error; the folder has tables and a work-precision diagram.
     #[command(after_help = "\
 Examples:

@@ -39,7 +39,7 @@ pub struct Setup {
     pub gravity: [f64; 3],
     /// How many fixed parts there are.
     pub fixed_parts: usize,
-    /// Whether space closes upon itself.
+    /// Whether space is periodic.
     pub periodic: bool,
     /// Length of a step, time; `None` without steps.
     pub dt: Option<f64>,
@@ -91,7 +91,7 @@ pub struct Work {
     /// Mean translational temperature over the run; `None` for fewer than two
     /// bodies.
     pub mean_temperature: Option<f64>,
-    /// Time on the clock on the wall, seconds.
+    /// Wall time, seconds.
     pub wall_seconds: f64,
 }
 
@@ -127,7 +127,7 @@ pub struct EnergySummary {
     pub integrator_drift: Option<f64>,
 }
 
-/// Momentum before and after, and who gave what.
+/// Momentum before and after, and what gave it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MomentumSummary {
     /// At the start.
@@ -187,11 +187,11 @@ pub struct Summary {
     pub mean_free_path: Option<f64>,
     /// Hash of the bits of the final state.
     pub state_hash: StateHash,
-    /// Time on the clock on the wall, seconds.
+    /// Wall time, seconds.
     pub wall_seconds: f64,
-    /// Collisions of both kinds per second on the wall.
+    /// Collisions of both kinds per second of wall time.
     pub collisions_per_second: f64,
-    /// Bodies × steps per second on the wall; 0 without steps.
+    /// Bodies × steps per second of wall time; 0 without steps.
     pub body_steps_per_second: f64,
 }
 

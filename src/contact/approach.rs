@@ -61,7 +61,7 @@ impl<T: Real> Approach<T> {
     }
 
     /// A time after all zeros of `f`, `f'` and `f''`; None where the path is
-    /// straight as far as the precision's range tells.
+    /// straight within the precision's range.
     ///
     /// With `t = 8 max(|v|/|a|, √((|x| + s)/|a|))` the highest power outweighs
     /// all others together, also with greatest components for lengths, which

@@ -71,7 +71,7 @@ pub(crate) fn fall_of_height<T: Real>(
 /// The first time at which a function falls through zero and that `counts`.
 ///
 /// `function` gives value and slope; it is monotone between neighbours of
-/// `ends`, which ascend. `is_above` tells whether it comes from above zero: a
+/// `ends`, which ascend. `is_above` says whether it comes from above zero: a
 /// function that begins below has to rise first. It may begin at zero.
 pub(crate) fn first_fall<T: Real>(
     ends: &[T],

@@ -63,6 +63,11 @@ pub struct Party<L> {
 impl<L: Lane> Party<L> {
     /// What never moves. The offset of a contact with it is the other body's
     /// arm, whose share is then 1.
+    ///
+    /// ```
+    /// use carom::contact::Party;
+    /// assert_eq!(Party::<f64>::immovable().inverse_mass, 0.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn immovable() -> Self {
@@ -89,6 +94,18 @@ impl<L: Lane> Party<L> {
 
 /// The impulses of a collision on the first body; the second one receives the
 /// opposite.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::{Party, Smooth, collide};
+///
+/// let mut ball = Party { velocity: Vec3::new(0.0, 0.0, -2.0_f64), ..Party::immovable() };
+/// (ball.inverse_mass, ball.share) = (0.5, 1.0);
+/// let up = Vec3::new(0.0, 0.0, 0.5);
+/// let impulse = collide(Smooth, up, &mut ball, &mut Party::immovable());
+/// assert!(impulse.approaching);
+/// assert_eq!((impulse.normal.z, impulse.tangential), (8.0, Vec3::ZERO));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Impulse<L: Lane> {
     /// Whether the bodies approached each other. Elsewhere both impulses are zero.

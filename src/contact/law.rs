@@ -48,7 +48,7 @@ pub use smooth::Smooth;
 /// assert_eq!(ball.velocity.to_array(), [1.0, 0.0, 0.5]);
 /// ```
 pub trait Law<L: Lane>: Copy {
-    /// Whether contacts read and change spins. Where they do not, no spin is
+    /// Whether collisions read and change spins. Where they do not, no spin is
     /// loaded and `tangential` is not called.
     const CHANGES_SPINS: bool;
 
@@ -61,6 +61,16 @@ pub trait Law<L: Lane>: Copy {
 }
 
 /// How the surfaces of a contact close in on each other.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::Closing;
+///
+/// // Centres 2 apart that approach each other at a speed of 3.
+/// let offset = Vec3::new(2.0, 0.0, 0.0);
+/// let closing = Closing { offset, approach: -6.0, rate: -1.5, inverse_masses: 2.0 };
+/// assert_eq!(closing.normal_speed_squared(), 9.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Closing<L> {
     /// `x`: from the centre of the second body to that of the first, length.
@@ -83,6 +93,17 @@ impl<L: Lane> Closing<L> {
 }
 
 /// How the surfaces of a contact slide on each other.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::{Closing, Law, Rough, Sliding};
+///
+/// let offset = Vec3::new(1.0, 0.0, 0.0);
+/// let closing = Closing { offset, approach: -1.0, rate: -1.0, inverse_masses: 2.0 };
+/// let sliding = Sliding { slip: Vec3::new(0.0, 7.0, 0.0), inverse_masses: 7.0 };
+/// // Rough surfaces turn the slip round.
+/// assert_eq!(Rough.tangential(&closing, -2.0, &sliding).y, -2.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Sliding<L> {
     /// `T`: the tangential velocity of the first surface relative to the
@@ -97,6 +118,15 @@ pub struct Sliding<L> {
 /// materials.
 ///
 /// A law without numbers is its own `Laws`.
+///
+/// ```
+/// use carom::contact::{Law, Laws, Rough, Smooth};
+///
+/// fn changes_spins<W: Laws<f64>>(_: W) -> bool {
+///     <W::Of<wide::f64x4> as Law<wide::f64x4>>::CHANGES_SPINS
+/// }
+/// assert!(changes_spins(Rough) && !changes_spins(Smooth));
+/// ```
 pub trait Laws<T: Real>: Copy + Send + Sync {
     /// See [`Law::CHANGES_SPINS`].
     const CHANGES_SPINS: bool;

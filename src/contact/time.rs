@@ -5,6 +5,16 @@ use crate::vec3::Vec3;
 
 /// How long ago two spheres came into contact, on straight relative paths: see
 /// [`past_contact`].
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::past_contact;
+///
+/// // Unit spheres that have flown into each other by ½, at a speed of 1.
+/// let past = past_contact(Vec3::new(1.5, 0.0, 0.0), Vec3::new(-1.0, 0.0, 0.0), 2.0_f64);
+/// assert!(past.met);
+/// assert_eq!(past.ago, 0.5);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct PastContact<L: Lane> {
     /// Whether the paths, followed back, touch at all.
@@ -15,6 +25,15 @@ pub struct PastContact<L: Lane> {
 
 /// In how much time two spheres come into contact, on straight relative paths:
 /// see [`contact_time`].
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::contact::contact_time;
+///
+/// let next = contact_time(Vec3::new(5.0, 0.0, 0.0), Vec3::new(-1.0, 0.0, 0.0), 2.0_f64);
+/// assert!(next.meets);
+/// assert_eq!(next.time, 3.0);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ContactTime<L: Lane> {
     /// Whether the spheres approach each other and will touch.

@@ -6,6 +6,17 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// What it took to find collisions.
+///
+/// ```
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+/// let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+/// let mut world = EventDriven::new(scene)?;
+/// world.advance(1.0)?;
+/// assert!(world.effort().remaining <= world.effort().tried);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Effort {

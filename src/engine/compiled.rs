@@ -12,6 +12,21 @@ use crate::scene::Scene;
 ///
 /// They are compiled here once, so that a crate that runs them does not compile
 /// them again.
+///
+/// ```
+/// use carom::engine::Compiled;
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// fn collisions<T: Compiled>() -> Result<u64, Box<dyn std::error::Error>> {
+///     let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+///     let scene = Scene::<T>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+///     let mut world = EventDriven::new(scene)?;
+///     world.advance(1.0)?;
+///     Ok(world.collisions().total())
+/// }
+/// assert_eq!(collisions::<f32>()?, collisions::<f64>()?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Compiled: Real + sealed::Engines {}
 
 pub(super) mod sealed {

@@ -4,6 +4,19 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// What a body collided with.
+///
+/// ```
+/// use carom::{EventDriven, Partner, Plane, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5).velocity([0.0, 0.0, -1.0]);
+/// let floor = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+/// let scene = Scene::<f64>::builder().surroundings(floor).sphere(ball).build()?;
+/// EventDriven::new(scene)?.for_each_event(1.0, |event| match event.partner {
+///     Partner::Body { index, .. } => println!("{} and {index}", event.a),
+///     partner => assert_eq!(partner, Partner::Surroundings(0)),
+/// })?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Partner<T> {
@@ -21,6 +34,21 @@ pub enum Partner<T> {
 }
 
 /// What receives the collisions, if anything does.
+///
+/// ```
+/// use carom::engine::Listener;
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// fn run(world: &mut EventDriven<f64>, listener: Listener<'_, f64>) {
+///     assert_eq!(world.advance_to(1.0, u64::MAX, listener).ok(), Some(true));
+/// }
+/// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+/// let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+/// let mut times = Vec::new();
+/// run(&mut EventDriven::new(scene)?, Some(&mut |event| times.push(event.time)));
+/// assert_eq!(times, [0.5]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub type Listener<'a, T> = Option<&'a mut dyn FnMut(&Event<T>)>;
 
 /// One collision.

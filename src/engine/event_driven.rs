@@ -62,6 +62,15 @@ pub struct EventDriven<T: Real> {
 impl<T: Compiled> EventDriven<T> {
     /// A scene at its start, to be run with the fastest lanes.
     ///
+    /// ```
+    /// # use carom::{EventDriven, Scene, Sphere};
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+    /// let world = EventDriven::new(scene)?;
+    /// assert_eq!(world.time(), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// None yet for a checked scene.
     pub fn new(scene: Scene<T>) -> Result<Self, EngineError> {
@@ -69,7 +78,16 @@ impl<T: Compiled> EventDriven<T> {
     }
 
     /// A scene at its start, to be run in the given lanes, which change no bit
-    /// of the result. Events are worked off on one thread.
+    /// of the result. Events are handled on one thread.
+    ///
+    /// ```
+    /// # use carom::{EventDriven, Execution, Lanes, Scene, Sphere};
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+    /// let world = EventDriven::with_execution(scene, Execution::new().lanes(Lanes::Scalar))?;
+    /// assert_eq!(world.time(), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// None yet for a checked scene.

@@ -14,14 +14,24 @@ use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene, Sum
 use crate::vec3::Vec3;
 
 /// What becomes of the orientations.
+///
+/// ```
+/// use carom::engine::Turning;
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let top = Sphere::new([0.0; 3]).radius(0.5).spin([0.0, 0.0, 1.0]);
+/// let world = EventDriven::new(Scene::<f64>::builder().sphere(top).build()?)?;
+/// assert_eq!(world.plan().turning, Turning::FromStart);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Turning {
-    /// No body spins and no contact can make it.
+    /// No body spins and no collision can make it.
     Never,
     /// Spins never change: one closed form from the start, when asked.
     FromStart,
-    /// Contacts change spins: a closed form from a body's last contact.
+    /// Collisions change spins: a closed form from a body's last collision.
     FromLastContact,
     /// `M ← R M` for every body in each step.
     EachStep,
@@ -73,9 +83,9 @@ pub struct Plan {
     pub has_pairs: bool,
     /// How many fixed features bodies meet.
     pub features: usize,
-    /// Which law contacts follow.
+    /// Which contact law collisions follow.
     pub surface: Surface,
-    /// Whether contacts read and change spins.
+    /// Whether collisions read and change spins.
     pub changes_spins: bool,
     /// Whether radii are loaded for each body.
     pub has_radii: bool,
@@ -87,6 +97,18 @@ pub struct Plan {
 
 impl Plan {
     /// The plan of a scene for an engine, whichever the scene itself names.
+    ///
+    /// ```
+    /// use carom::engine::Plan;
+    /// use carom::scene::EngineKind;
+    /// use carom::{Execution, Scene, Sphere};
+    ///
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+    /// let plan = Plan::new(&scene, EngineKind::EventDriven, Execution::new(), 1);
+    /// assert_eq!((plan.bodies, plan.precision), (1, "f64"));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn new<T: Real>(
         scene: &Scene<T>,

@@ -57,6 +57,15 @@ pub struct Stepped<T: Real> {
 impl<T: Compiled> Stepped<T> {
     /// A scene at its start, to be run on all cores with the fastest lanes.
     ///
+    /// ```
+    /// # use carom::{Scene, Sphere, Stepped};
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().dt(1e-3).sphere(ball).build()?;
+    /// let world = Stepped::new(scene)?;
+    /// assert_eq!(world.time(), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the scene has no `dt`, or the system no threads to give.
     pub fn new(scene: Scene<T>) -> Result<Self, EngineError> {
@@ -65,6 +74,15 @@ impl<T: Compiled> Stepped<T> {
 
     /// A scene at its start, to be run in the given lanes and threads. They
     /// change no bit of the result.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere, Stepped};
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().dt(1e-3).sphere(ball).build()?;
+    /// let world = Stepped::with_execution(scene, Execution::new().threads(1))?;
+    /// assert_eq!(world.time(), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If the scene has no `dt`, or the system no threads to give.

@@ -29,6 +29,19 @@ pub enum World<T: Real> {
 impl<T: Compiled> World<T> {
     /// A scene at its start.
     ///
+    /// ```
+    /// use carom::engine::World;
+    /// use carom::scene::EngineKind;
+    /// use carom::{Execution, Scene, Sphere};
+    ///
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().engine(EngineKind::Stepped).dt(1e-3).sphere(ball);
+    /// let scene = scene.build()?;
+    /// let world = World::new(scene, Execution::default())?;
+    /// assert!(matches!(world, World::Stepped(_)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// Those of the engines' own `with_execution`.
     pub fn new(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {

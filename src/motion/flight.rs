@@ -241,6 +241,22 @@ impl Integrator {
 
     /// [`flight_and_fastest`] by the integrator of this name; without a field,
     /// by [`Coasting`].
+    ///
+    /// ```
+    /// use carom::space::OpenSpace;
+    /// use carom::Integrator;
+    ///
+    /// let (mut x, mut y, mut z) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    /// let (mut u, mut v, mut w) = ([3.0, 1.0], [4.0, 0.0], [0.0; 2]);
+    /// let fastest = Integrator::VelocityVerlet.flight_and_fastest::<f64, _>(
+    ///     [&mut x, &mut y, &mut z],
+    ///     [&mut u, &mut v, &mut w],
+    ///     None,
+    ///     0.5,
+    ///     OpenSpace,
+    /// );
+    /// assert_eq!((fastest, x), (25.0, [1.5, 0.5]));
+    /// ```
     pub fn flight_and_fastest<L: Lane, S: Wrap<L::Scalar>>(
         self,
         position: [&mut [L::Scalar]; 3],

@@ -108,6 +108,15 @@ pub trait FlightStep {
 }
 
 /// No field: `c += vΔt`. The acceleration is not read.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::integrator::{Coasting, FlightStep};
+/// let gravity = Vec3::new(0.0, 0.0, -8.0);
+/// let (c, v) = Coasting::step(Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0), gravity, 0.5);
+/// assert_eq!(c, Vec3::new(1.0, 0.0, 0.0));
+/// assert_eq!(v, Vec3::new(2.0, 0.0, 0.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Coasting;
 
@@ -145,6 +154,15 @@ impl FlightStep for SemiImplicitEuler {
 }
 
 /// Position first: `c += vΔt; v += aΔt`.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::integrator::{ExplicitEuler, FlightStep};
+/// let gravity = Vec3::new(0.0, 0.0, -8.0);
+/// let (c, v) = ExplicitEuler::step(Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0), gravity, 0.5);
+/// assert_eq!(c, Vec3::new(1.0, 0.0, 0.0));
+/// assert_eq!(v, Vec3::new(2.0, 0.0, -4.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExplicitEuler;
 
@@ -157,6 +175,15 @@ impl FlightStep for ExplicitEuler {
 
 /// `c += vΔt + ½aΔt²; v += aΔt`, as a drift with the mean velocity
 /// `v + ½aΔt`.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::integrator::{FlightStep, VelocityVerlet};
+/// let gravity = Vec3::new(0.0, 0.0, -8.0);
+/// let (c, v) = VelocityVerlet::step(Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0), gravity, 0.5);
+/// assert_eq!(c, Vec3::new(1.0, 0.0, -1.0));
+/// assert_eq!(v, Vec3::new(2.0, 0.0, -4.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VelocityVerlet;
 

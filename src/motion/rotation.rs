@@ -12,9 +12,9 @@ use crate::vec3::Vec3;
 /// `wy = wz × wx`.
 ///
 /// The formula as printed, as a reference for [`turned`]: a sine and a cosine,
-/// two roots and two divisions for each body. Where it is undefined it is
-/// mended: a spin all but parallel to `y` takes `(1,0,0)` for the helper axis,
-/// and no spin is no rotation.
+/// two roots and two divisions for each body. Where it is undefined: a spin
+/// nearly parallel to `y` takes `(1,0,0)` for the helper axis, and no spin is no
+/// rotation.
 ///
 /// `spin` in rad per time, for `|w|²` neither under- nor overflowing; error of
 /// the elements a few ε and `ε|w|t`.
@@ -56,7 +56,7 @@ pub fn reference_rotation<L: Lane>(spin: Vec3<L>, time: L) -> Mat3<L> {
 ///
 /// `spin` in rad per time; `time` of any size and sign, a step or the age of
 /// the last collision. The error of an element is a few ε at any angle up to
-/// `ε⁻¹` rad, and not `ε|w|t`: an orientation may well be left alone for a
+/// `ε⁻¹` rad, and not `ε|w|t`: an orientation can be left alone for a
 /// thousand turns. Up to a quarter turn there is no root and no division, only
 /// even polynomials of `|wt/2|²`; greater angles are worked out to twice the
 /// digits.

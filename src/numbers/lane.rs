@@ -55,6 +55,21 @@ pub trait Mask:
 ///
 /// Comparisons are false where an operand is NaN, as they are for the
 /// primitive types.
+///
+/// ```
+/// use carom::lane::{Lane, Mask};
+/// use wide::f64x4;
+///
+/// fn distance<L: Lane>(a: L, b: L) -> L {
+///     (a - b).abs()
+/// }
+/// let far = distance(f64x4::from_fn(|k| k as f64), Lane::splat(2.0));
+/// assert_eq!(far.to_array(), [2.0, 1.0, 0.0, 1.0]);
+/// assert_eq!(f64x4::from_array([4.0, 9.0, 1.0, 0.0]).sqrt().to_array(), [2.0, 3.0, 1.0, 0.0]);
+/// assert_eq!((far.lt(f64x4::ONE).bits(), far.le(f64x4::ONE).bits()), (0b0100, 0b1110));
+/// assert!(!far.same(f64x4::ZERO).all());
+/// assert_eq!((f64x4::WIDTH, <f64 as Lane>::WIDTH), (4, 1));
+/// ```
 pub trait Lane:
     Copy
     + Debug

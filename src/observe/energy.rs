@@ -9,6 +9,12 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// Energy of all bodies, mass × length² per time².
+///
+/// ```
+/// use carom::Energy;
+/// let energy = Energy { translational: 3.0, rotational: 1.0, potential: -2.0 };
+/// assert_eq!((energy.kinetic(), energy.total()), (4.0, 2.0));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
     /// Of the centres' motion: `Σ ½ m v²`.

@@ -36,6 +36,13 @@ pub struct Temperature {
 
 impl Temperature {
     /// The temperature of bodies; `None` for fewer than two.
+    ///
+    /// ```
+    /// use carom::{Bodies, Temperature};
+    /// let ball = Bodies::from_positions(&[[0.0; 3]]).radius(0.5).build()?;
+    /// assert_eq!(Temperature::of(&ball), None);
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>) -> Option<Self> {
         if bodies.len() < 2 {
@@ -63,7 +70,7 @@ impl fmt::Display for Temperature {
 /// `virial` is `W = Σ σ|J_n|` over the pair collisions of a run of length
 /// `time`, `temperature` the translational `kT`, a mean over the run. The
 /// `−1/N` belongs to a conserved momentum of zero, which leaves `N − 1` bodies'
-/// worth of motion (`validation/README.md`).
+/// worth of motion.
 ///
 /// ```
 /// use carom::observe::compressibility;
@@ -98,9 +105,8 @@ mod tests {
 
     use super::*;
 
-    /// The published Z and the independent Γ of the hard-sphere fluid belong
-    /// together (`validation/README.md`): the mean |J_n| of a pair collision
-    /// ties the two functions.
+    /// The published Z of the hard-sphere fluid and the Γ of an independent program
+    /// belong together: the mean |J_n| of a pair collision ties the two functions.
     #[test]
     fn rate_and_compressibility_agree_with_the_table() {
         let table = [(1.23937, 0.81126), (1.55317, 1.87376), (3.26870, 7.68082)];

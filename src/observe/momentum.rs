@@ -11,11 +11,21 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// Momentum of all bodies, `Σ m v`, mass × length per time.
+///
+/// ```
+/// use carom::{Momentum, Vec3};
+/// assert_eq!(Momentum(Vec3::new(1.0, 0.0, 2.5)).to_string(), "(1, 0, 2.5)");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Momentum(pub Vec3<f64>);
 
 /// Angular momentum of all bodies about the origin, `Σ (m c × v + I w)`,
 /// mass × length² per time.
+///
+/// ```
+/// use carom::{AngularMomentum, Vec3};
+/// assert_eq!(AngularMomentum(Vec3::new(1.0, 0.0, 2.5)).to_string(), "(1, 0, 2.5)");
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AngularMomentum(pub Vec3<f64>);
 

@@ -11,6 +11,11 @@ use crate::real::Real;
 /// A 64-bit hash of the bits of a state. It is written as `0x` and sixteen
 /// hexadecimal digits, in JSON too: JSON readers lose the digits of a whole
 /// number past 2⁵³.
+///
+/// ```
+/// use carom::observe::StateHash;
+/// assert_eq!(StateHash(0xab).to_string(), "0x00000000000000ab");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct StateHash(pub u64);
 

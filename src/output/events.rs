@@ -13,6 +13,11 @@ use crate::real::Real;
 /// the rest the velocities and angular velocities just after. Of two bodies `a`
 /// is the one with the lesser number, and `surroundings` is empty; for
 /// something fixed it is its number, and `b` with its velocities is empty.
+///
+/// ```
+/// use carom::output::EVENT_COLUMNS;
+/// assert_eq!(EVENT_COLUMNS[..4], ["time", "a", "b", "surroundings"]);
+/// ```
 pub const EVENT_COLUMNS: [&str; 26] = [
     "time",
     "a",
@@ -44,6 +49,22 @@ pub const EVENT_COLUMNS: [&str; 26] = [
 
 /// Writes collisions as comma-separated values under [`EVENT_COLUMNS`], in the
 /// order in which they come.
+///
+/// ```
+/// use carom::output::EventWriter;
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+/// let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+/// let mut world = EventDriven::new(scene)?;
+/// let mut writer = EventWriter::new(Vec::new())?;
+/// world.for_each_event(1.0, |event| writer.record(event))?;
+/// writer.check()?;
+/// let text = String::from_utf8(writer.finish()?)?;
+/// assert!(text.starts_with("time,a,b,surroundings,"));
+/// assert!(text.contains("\n0.5,0,1,,"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct EventWriter<W: io::Write> {
     writer: csv::Writer<W>,

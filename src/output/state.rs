@@ -8,6 +8,11 @@ use crate::real::Real;
 
 /// The columns of a state file: number of the body, centre, velocity, angular
 /// velocity, orientation (body axes to world axes, row by row), radius, mass.
+///
+/// ```
+/// use carom::output::STATE_COLUMNS;
+/// assert_eq!((STATE_COLUMNS[0], STATE_COLUMNS[20]), ("id", "mass"));
+/// ```
 pub const STATE_COLUMNS: [&str; 21] = [
     "id", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "m00", "m01", "m02", "m10", "m11",
     "m12", "m20", "m21", "m22", "radius", "mass",

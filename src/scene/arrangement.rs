@@ -15,8 +15,8 @@ const SATURATION: f64 = 0.385;
 /// The densest packing of equal spheres, `π/√18`, somewhat rounded up.
 const DENSEST: f64 = 0.75;
 
-/// How many random places a group of this size tries before there is taken to
-/// be no room. Equal spheres get to a packing fraction of 0.33 on 150 places
+/// How many random places a group of this size tries before it counts as having
+/// no room. Equal spheres get to a packing fraction of 0.33 on 150 places
 /// each; from there the number grows without end.
 pub(super) fn attempts(count: u64) -> u64 {
     2_000_000 + 200 * count

@@ -1,6 +1,16 @@
 //! Built-in scenes: files that come with the program, to run and to start from.
 
 /// A scene file that comes with the program.
+///
+/// ```
+/// use carom::scene::{SceneFile, builtin_scenes};
+///
+/// for scene in builtin_scenes() {
+///     println!("{:<18}{}", scene.name, scene.summary);
+///     SceneFile::parse(scene.name, scene.text)?;
+/// }
+/// # Ok::<(), carom::SceneError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct BuiltinScene {
@@ -13,6 +23,11 @@ pub struct BuiltinScene {
 }
 
 /// The scene that is run when none is named.
+///
+/// ```
+/// use carom::scene::{DEFAULT_SCENE, SceneFile};
+/// assert!(SceneFile::builtin(DEFAULT_SCENE).is_some());
+/// ```
 pub const DEFAULT_SCENE: &str = "rough-gas";
 
 macro_rules! scenes {

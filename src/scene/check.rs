@@ -37,7 +37,7 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
         if is_periodic && shape.bounds().is_none() {
             let what = shape.interior().map_or(shape.name(), |_| "container");
             let reason = format!(
-                "a {what} ends space, which a periodic box closes upon itself; leave out one of \
+                "a {what} ends space, and a periodic box has no end; leave out one of \
                  them"
             );
             return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));

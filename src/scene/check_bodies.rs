@@ -117,9 +117,9 @@ fn sides<T: Real>(space: &PeriodicBox<T>, bodies: &Bodies<T>) -> Result<(), Prob
 fn wrap<T: Real>(space: &PeriodicBox<T>, bodies: &mut Bodies<T>) -> Result<(), Found> {
     let [lower, upper] = [space.lower.to_array(), space.upper.to_array()];
     for (axis, column) in bodies.position.iter_mut().enumerate() {
-        for (body, place) in column.iter_mut().enumerate() {
-            let beyond = lower[axis] - *place;
-            let beyond = if beyond > T::ZERO { beyond } else { *place - upper[axis] };
+        for (body, center) in column.iter_mut().enumerate() {
+            let beyond = lower[axis] - *center;
+            let beyond = if beyond > T::ZERO { beyond } else { *center - upper[axis] };
             if beyond > T::ZERO {
                 let problem = Problem::Misplaced {
                     body,
@@ -129,8 +129,8 @@ fn wrap<T: Real>(space: &PeriodicBox<T>, bodies: &mut Bodies<T>) -> Result<(), F
                 };
                 return Err((body, "", problem));
             }
-            if *place == upper[axis] {
-                *place = lower[axis];
+            if *center == upper[axis] {
+                *center = lower[axis];
             }
         }
     }

@@ -13,9 +13,22 @@ use crate::vec3::Vec3;
 
 /// A checked scene: what an engine takes.
 ///
-/// It can only be had from a [`SceneBuilder`](super::SceneBuilder) or a
+/// It is made by a [`SceneBuilder`](super::SceneBuilder) or a
 /// [`SceneFile`](super::SceneFile); the fields are for reading. Units are the
 /// user's own as long as they agree.
+///
+/// ```
+/// use carom::{Plane, Scene, Sphere};
+///
+/// let scene = Scene::<f64>::builder()
+///     .gravity([0.0, 0.0, -9.81])
+///     .surroundings(Plane::new([0.0; 3], [0.0, 0.0, 1.0]))
+///     .sphere(Sphere::new([0.0, 0.0, 2.0]).radius(0.5))
+///     .build()?;
+/// assert_eq!((scene.bodies.len(), scene.surroundings.len()), (1, 1));
+/// assert_eq!(scene.gravity.z, -9.81);
+/// # Ok::<(), carom::SceneError>(())
+/// ```
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Scene<T: Real> {
@@ -32,7 +45,7 @@ pub struct Scene<T: Real> {
     pub surface: Surface,
     /// What spheres can meet.
     pub encounters: Encounters,
-    /// The box that space closes upon itself in, if it does. Every side is at
+    /// The box of a periodic space, if it is one. Every side is at
     /// least twice the greatest diameter, so that of all images of two bodies
     /// only the nearest can touch.
     pub periodic: Option<PeriodicBox<T>>,

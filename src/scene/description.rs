@@ -50,7 +50,7 @@ impl<T: Real> GivenShape<T> {
     }
 }
 
-/// Whether and how space closes upon itself.
+/// Whether and how space is periodic.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Periodicity<T> {
     Open,

@@ -95,11 +95,11 @@ fn multiplied(count: u64, factor: f64) -> u64 {
 }
 
 impl RawScene {
-    /// Moves every place away from the origin by this factor.
+    /// Moves every point away from the origin by this factor.
     fn dilate(&mut self, factor: f64) {
-        let dilate = |place: &mut Option<Vector>| {
-            if let Some(Vector(place)) = place {
-                *place = place.map(|component| component * factor);
+        let dilate = |point: &mut Option<Vector>| {
+            if let Some(Vector(point)) = point {
+                *point = point.map(|component| component * factor);
             }
         };
         if let Some(RawPeriodic::Box(bounds)) = &mut self.periodic {

@@ -8,6 +8,14 @@ use thiserror::Error;
 use crate::surroundings::Mistake;
 
 /// Where a mistake is.
+///
+/// ```
+/// use carom::{Scene, Sphere};
+///
+/// let error = Scene::<f64>::builder().sphere(Sphere::new([0.0; 3])).build().unwrap_err();
+/// assert_eq!(error.place.key, "spheres[0].radius");
+/// assert_eq!(error.place.line, None);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
     /// The file, or the name of the scene.
@@ -34,7 +42,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// A scene that cannot be had.
+/// Why there is no scene.
 ///
 /// ```
 /// use carom::scene::SceneFile;
@@ -61,6 +69,15 @@ pub struct SceneError {
 
 /// What is wrong with a scene, and what would be right. It reads on from the
 /// place.
+///
+/// ```
+/// use carom::scene::Problem;
+/// use carom::{Scene, Sphere};
+///
+/// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5);
+/// let error = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(0.75)).build().unwrap_err();
+/// assert!(matches!(*error.problem, Problem::Overlap { a: 0, b: 1, .. }));
+/// ```
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Problem {

@@ -93,6 +93,16 @@ pub struct SceneFile {
 impl SceneFile {
     /// Reads a scene file.
     ///
+    /// ```
+    /// use carom::SceneFile;
+    ///
+    /// let folder = tempfile::tempdir()?;
+    /// let path = folder.path().join("ball.toml");
+    /// std::fs::write(&path, "[[spheres]]\nposition = [0, 0, 0]\nradius = 0.5\n")?;
+    /// assert_eq!(SceneFile::load(&path)?.name, "ball");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the file cannot be read, is not UTF-8 or TOML, or has an unknown key
     /// or a value of the wrong type.
@@ -112,6 +122,15 @@ impl SceneFile {
     }
 
     /// Reads the text of a scene file; `name` stands for the file in errors.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    ///
+    /// let text = "stepped.dt = 0.1\n[[spheres]]\nposition = [0, 0, 0]\nradius = 0.5\n";
+    /// assert_eq!(SceneFile::parse("ball", text)?.build::<f64>()?.bodies.len(), 1);
+    /// assert!(SceneFile::parse("ball", "sphere = 1").is_err());
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     ///
     /// # Errors
     /// If the text is not TOML, or has an unknown key or a value of the wrong
@@ -137,6 +156,12 @@ impl SceneFile {
     }
 
     /// The built-in scene of that name, if there is one.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// assert!(SceneFile::builtin("wedge").is_some());
+    /// assert!(SceneFile::builtin("no such scene").is_none());
+    /// ```
     #[must_use]
     pub fn builtin(name: &str) -> Option<Self> {
         let scene = builtin::builtin_scenes().iter().find(|scene| scene.name == name)?;
@@ -158,12 +183,26 @@ impl SceneFile {
     }
 
     /// The text that it was read from.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let file = SceneFile::parse("fast", "duration = 2.0")?;
+    /// assert_eq!(file.text(), "duration = 2.0");
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// How long a run takes, for those who need to know.
+    /// How long a run takes, time; an error without it.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// assert_eq!(SceneFile::parse("fast", "duration = 2.0")?.run_duration()?, 2.0);
+    /// assert!(SceneFile::parse("endless", "")?.run_duration().is_err());
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     ///
     /// # Errors
     /// If neither the file nor an option says it.
@@ -175,6 +214,15 @@ impl SceneFile {
     }
 
     /// Builds and checks the scene in a precision.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    ///
+    /// let file = SceneFile::builtin("bouncing-ball").ok_or("no such scene")?;
+    /// let (single, double) = (file.build::<f32>()?, file.build::<f64>()?);
+    /// assert_eq!(single.bodies.len(), double.bodies.len());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If a value, or what the values make together, is not possible.

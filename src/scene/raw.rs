@@ -155,9 +155,9 @@ deserialize!(Whole, deserialize_any, "a whole number from 0 up", {
 deserialize!(Vector, deserialize_any, "three numbers, as in [0.0, 0.0, 1.0]", {
     fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Vector, A::Error> {
         let mut vector = [0.0; 3];
-        for (index, place) in vector.iter_mut().enumerate() {
+        for (index, component) in vector.iter_mut().enumerate() {
             let element: Option<Number> = elements.next_element()?;
-            *place = element.ok_or_else(|| A::Error::invalid_length(index, &self))?.0;
+            *component = element.ok_or_else(|| A::Error::invalid_length(index, &self))?.0;
         }
         match elements.next_element::<serde::de::IgnoredAny>()? {
             None => Ok(Vector(vector)),

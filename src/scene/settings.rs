@@ -9,6 +9,13 @@ use crate::motion::Integrator;
 use crate::real::Real;
 
 /// In which numbers a scene is computed.
+///
+/// ```
+/// use carom::scene::Precision;
+/// assert_eq!(Precision::F32.name(), "f32");
+/// assert_eq!(Precision::F32.epsilon(), f64::from(f32::EPSILON));
+/// assert_eq!(Precision::default(), Precision::F64);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
@@ -48,6 +55,16 @@ impl fmt::Display for Precision {
 }
 
 /// How an engine goes through time.
+///
+/// ```
+/// use carom::scene::EngineKind;
+/// use carom::{Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5);
+/// let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball).build()?;
+/// assert_eq!(scene.engine, EngineKind::EventDriven);
+/// # Ok::<(), carom::SceneError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
@@ -61,6 +78,18 @@ pub enum EngineKind {
 }
 
 /// What spheres can meet.
+///
+/// ```
+/// use carom::engine::World;
+/// use carom::scene::Encounters;
+/// use carom::{Execution, Scene, Sphere};
+///
+/// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5);
+/// let scene = Scene::<f64>::builder().encounters(Encounters::None).dt(0.5);
+/// let scene = scene.sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+/// assert!(!World::new(scene, Execution::default())?.plan().has_pairs);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
@@ -76,6 +105,15 @@ pub enum Encounters {
 }
 
 /// What only the stepped engine asks.
+///
+/// ```
+/// use carom::scene::SteppedSettings;
+/// use carom::Impact;
+///
+/// let usual = SteppedSettings::default();
+/// let settings = SteppedSettings { dt: Some(1e-3), impact: Impact::SubStep, ..usual };
+/// assert_eq!(settings.integrator, usual.integrator);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SteppedSettings {
     /// Length of a step, time. The stepped engine needs it.
@@ -91,6 +129,23 @@ pub struct SteppedSettings {
 }
 
 /// Where inside a step of the stepped engine a contact takes effect.
+///
+/// ```
+/// use carom::{Impact, Plane, Scene, Sphere, Stepped};
+///
+/// // A ball comes to a floor in the middle of a step.
+/// let height = |impact| -> Result<f64, Box<dyn std::error::Error>> {
+///     let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5).velocity([0.0, 0.0, -2.0]);
+///     let floor = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+///     let scene = Scene::builder().dt(0.5).impact(impact).surroundings(floor).sphere(ball);
+///     let mut world = Stepped::new(scene.build()?)?;
+///     world.advance(0.5)?;
+///     Ok(world.bodies().position_of(0).z)
+/// };
+/// assert_eq!(height(Impact::EndOfStep)?, 0.0);
+/// assert_eq!(height(Impact::SubStep)?, 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
@@ -115,6 +170,18 @@ impl fmt::Display for Impact {
 }
 
 /// When orientations are brought up to date.
+///
+/// ```
+/// use carom::engine::Turning;
+/// use carom::scene::OrientationUpdate;
+/// use carom::{Scene, Sphere, Stepped};
+///
+/// let top = Sphere::new([0.0; 3]).radius(0.5).spin([0.0, 0.0, 1.0]);
+/// let scene = Scene::<f64>::builder().dt(0.5).orientation(OrientationUpdate::EachStep);
+/// let world = Stepped::new(scene.sphere(top).build()?)?;
+/// assert_eq!(world.plan().turning, Turning::EachStep);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
@@ -145,8 +212,16 @@ pub enum Summation {
 }
 
 /// The most bodies that a scene may have: one hundred million.
+///
+/// ```
+/// assert_eq!(carom::scene::MOST_BODIES, 100_000_000);
+/// ```
 pub const MOST_BODIES: u64 = 100_000_000;
 
 /// The most steps that a run may have: `2⁵³`, up to which their count is exact
 /// in an `f64`.
+///
+/// ```
+/// assert_eq!(carom::scene::MOST_STEPS, 2.0_f64.powi(53));
+/// ```
 pub const MOST_STEPS: f64 = 9_007_199_254_740_992.0;

@@ -7,6 +7,14 @@ use serde::{Deserialize, Serialize};
 
 /// A figure that all spheres of a group share, or that is spread evenly
 /// between two bounds.
+///
+/// ```
+/// use carom::scene::Spread;
+///
+/// let radius = Spread::from(0.1..=0.2);
+/// assert_eq!((radius.least(), radius.greatest()), (0.1, 0.2));
+/// assert_eq!(Spread::from(0.5), Spread::Same(0.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spread {
     /// The same for all.
@@ -53,6 +61,12 @@ impl From<RangeInclusive<f64>> for Spread {
 }
 
 /// How many spheres are laid out.
+///
+/// ```
+/// use carom::Spheres;
+/// use carom::scene::Arrangement;
+/// assert_eq!(Spheres::new(4, Arrangement::Fcc), Spheres::fcc(4));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
@@ -95,6 +109,15 @@ macro_rules! make_setters {
     () => {
         /// Radius, length: a number, or a range to spread evenly over. It has
         /// no default.
+        ///
+        /// ```
+        /// use carom::{Scene, Spheres};
+        ///
+        /// let grains = Spheres::cubic(8).radius(0.1..=0.2).within([0.0; 3], [2.0; 3]);
+        /// let scene = Scene::<f64>::builder().spheres(grains).build()?;
+        /// assert!(scene.bodies.radius.greatest() <= 0.2);
+        /// # Ok::<(), carom::SceneError>(())
+        /// ```
         #[must_use]
         pub fn radius(mut self, radius: impl Into<Spread>) -> Self {
             self.make.radius = Some(radius.into());
@@ -102,6 +125,14 @@ macro_rules! make_setters {
         }
 
         /// Mass: a number, or a range to spread evenly over; 1 by default.
+        ///
+        /// ```
+        /// # use carom::{Scene, Sphere};
+        /// let ball = Sphere::new([0.0; 3]).radius(0.5).mass(2.0);
+        /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+        /// assert_eq!(scene.bodies.mass.of(0), 2.0);
+        /// # Ok::<(), carom::SceneError>(())
+        /// ```
         #[must_use]
         pub fn mass(mut self, mass: impl Into<Spread>) -> Self {
             self.make.mass = Some(mass.into());
@@ -109,6 +140,14 @@ macro_rules! make_setters {
         }
 
         /// Mass per volume, instead of the mass.
+        ///
+        /// ```
+        /// # use carom::{Scene, Sphere};
+        /// let ball = Sphere::new([0.0; 3]).radius(0.5).density(6.0);
+        /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+        /// assert!((scene.bodies.mass.of(0) - std::f64::consts::PI).abs() < 1e-15);
+        /// # Ok::<(), carom::SceneError>(())
+        /// ```
         #[must_use]
         pub fn density(mut self, density: impl Into<Spread>) -> Self {
             self.make.density = Some(density.into());
@@ -119,6 +158,14 @@ macro_rules! make_setters {
         /// 2/5, the default, for a solid sphere, 2/3 for a thin shell. 0, a
         /// point mass, is refused: its spin would have no inertia to a rough
         /// contact, and to smooth ones the factor makes no difference.
+        ///
+        /// ```
+        /// # use carom::{Scene, Sphere};
+        /// let ball = Sphere::new([0.0; 3]).radius(0.5).inertia_factor(0.5);
+        /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+        /// assert_eq!(scene.bodies.inertia.of(0), 0.125);
+        /// # Ok::<(), carom::SceneError>(())
+        /// ```
         #[must_use]
         pub fn inertia_factor(mut self, factor: f64) -> Self {
             self.make.inertia_factor = factor;
@@ -127,6 +174,14 @@ macro_rules! make_setters {
 
         /// Velocity of the centre, length per time; added to that of the
         /// temperature.
+        ///
+        /// ```
+        /// # use carom::{Scene, Sphere};
+        /// let ball = Sphere::new([0.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]);
+        /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+        /// assert_eq!(scene.bodies.velocity_of(0).x, 1.0);
+        /// # Ok::<(), carom::SceneError>(())
+        /// ```
         #[must_use]
         pub fn velocity(mut self, velocity: [f64; 3]) -> Self {
             self.make.velocity = velocity;
@@ -135,6 +190,14 @@ macro_rules! make_setters {
 
         /// Angular velocity, rad per time, in the world frame; added to that of
         /// the temperature.
+        ///
+        /// ```
+        /// # use carom::{Scene, Sphere};
+        /// let ball = Sphere::new([0.0; 3]).radius(0.5).spin([0.0, 0.0, 3.0]);
+        /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+        /// assert_eq!(scene.bodies.spin_of(0).z, 3.0);
+        /// # Ok::<(), carom::SceneError>(())
+        /// ```
         #[must_use]
         pub fn spin(mut self, spin: [f64; 3]) -> Self {
             self.make.spin = spin;
@@ -158,6 +221,15 @@ pub struct Sphere {
 impl Sphere {
     /// A sphere at rest with its centre at `position`. Its radius has to be
     /// set.
+    ///
+    /// ```
+    /// use carom::{Scene, Sphere};
+    ///
+    /// let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().sphere(ball).build()?;
+    /// assert_eq!(scene.bodies.position_of(0).z, 1.0);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn new(position: [f64; 3]) -> Self {
         Self { position, make: Make::default() }
@@ -191,6 +263,16 @@ pub struct Spheres {
 
 impl Spheres {
     /// `count` spheres in an arrangement. Their radius has to be set.
+    ///
+    /// ```
+    /// # use carom::{Scene, Spheres};
+    /// use carom::scene::Arrangement;
+    ///
+    /// let gas = Spheres::new(27, Arrangement::Cubic).radius(0.1).within([0.0; 3], [3.0; 3]);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// assert_eq!(scene.bodies.len(), 27);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn new(count: u64, arrangement: Arrangement) -> Self {
         Self {
@@ -206,24 +288,57 @@ impl Spheres {
     }
 
     /// `count` spheres at random places that do not overlap.
+    ///
+    /// ```
+    /// # use carom::{Scene, Spheres};
+    /// let gas = Spheres::random(10).radius(0.1).within([0.0; 3], [2.0; 3]);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// assert_eq!(scene.bodies.len(), 10);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn random(count: u64) -> Self {
         Self::new(count, Arrangement::Random)
     }
 
     /// `count` spheres on a face-centred cubic lattice.
+    ///
+    /// ```
+    /// # use carom::{Scene, Spheres};
+    /// let gas = Spheres::fcc(4).radius(0.1).within([0.0; 3], [1.0; 3]);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// assert_eq!(scene.bodies.len(), 4);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn fcc(count: u64) -> Self {
         Self::new(count, Arrangement::Fcc)
     }
 
     /// `count` spheres on a simple cubic lattice.
+    ///
+    /// ```
+    /// # use carom::{Scene, Spheres};
+    /// let gas = Spheres::cubic(8).radius(0.5).within([0.0; 3], [2.0; 3]);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// // Two in each direction fill the box.
+    /// assert_eq!(scene.bodies.len(), 8);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn cubic(count: u64) -> Self {
         Self::new(count, Arrangement::Cubic)
     }
 
     /// The box to fill, surfaces included, length.
+    ///
+    /// ```
+    /// # use carom::{Scene, Spheres};
+    /// let gas = Spheres::random(10).radius(0.1).within([4.0; 3], [6.0; 3]);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// assert!(scene.bodies.position[0].iter().all(|x| (4.1..=5.9).contains(x)));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn within(mut self, lower: [f64; 3], upper: [f64; 3]) -> Self {
         self.bounds = Some([lower, upper]);
@@ -232,6 +347,15 @@ impl Spheres {
 
     /// Spheres per volume; it sizes a
     /// [periodic cube](super::SceneBuilder::periodic_cube).
+    ///
+    /// ```
+    /// use carom::{Scene, Spheres};
+    ///
+    /// let fluid = Spheres::fcc(32).radius(0.5).number_density(0.5);
+    /// let scene = Scene::<f64>::builder().periodic_cube().spheres(fluid).build()?;
+    /// assert!(scene.periodic.is_some_and(|cube| (cube.sides().x - 4.0).abs() < 1e-12));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn number_density(mut self, density: f64) -> Self {
         self.number_density = Some(density);
@@ -240,6 +364,17 @@ impl Spheres {
 
     /// `kT`, energy: each component of the velocities is normal with variance
     /// `kT/m`, and then the group's total momentum is removed.
+    ///
+    /// ```
+    /// use carom::{Momentum, Scene, Spheres, Temperature};
+    ///
+    /// let gas = Spheres::cubic(1000).radius(0.1).within([0.0; 3], [9.0; 3]).temperature(2.0);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// let found = Temperature::of(&scene.bodies).ok_or("fewer than two")?;
+    /// assert!((found.translational - 2.0).abs() < 0.2);
+    /// assert!(Momentum::of(&scene.bodies).0.length() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn temperature(mut self, temperature: f64) -> Self {
         self.temperature = temperature;
@@ -248,6 +383,16 @@ impl Spheres {
 
     /// `kT` of rotation, energy: each component of the angular velocities is
     /// normal with variance `kT/I`.
+    ///
+    /// ```
+    /// use carom::{Scene, Spheres, Temperature};
+    ///
+    /// let gas = Spheres::cubic(1000).radius(0.1).within([0.0; 3], [9.0; 3]).spin_temperature(2.0);
+    /// let scene = Scene::<f64>::builder().spheres(gas).build()?;
+    /// let found = Temperature::of(&scene.bodies).ok_or("fewer than two")?;
+    /// assert!((found.rotational - 2.0).abs() < 0.2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn spin_temperature(mut self, temperature: f64) -> Self {
         self.spin_temperature = temperature;
@@ -255,6 +400,16 @@ impl Spheres {
     }
 
     /// The seed of this group's random numbers, instead of the scene's.
+    ///
+    /// ```
+    /// use carom::{Scene, Spheres};
+    ///
+    /// // Two groups, each with numbers of its own.
+    /// let gas = |x, seed| Spheres::random(10).radius(0.1).within([x; 3], [x + 2.0; 3]).seed(seed);
+    /// let scene = Scene::<f64>::builder().spheres(gas(0.0, 1)).spheres(gas(2.0, 2)).build()?;
+    /// assert_eq!(scene.bodies.len(), 20);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
     #[must_use]
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = Some(seed);

@@ -80,7 +80,7 @@ const LINE: i32 = 20;
 /// everywhere.
 const FONT: &str = "DejaVu Sans, sans-serif";
 
-/// Colours that all can tell apart (Okabe and Ito 2008).
+/// Colours that colour-blind readers can separate (Okabe and Ito 2008).
 const PALETTE: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

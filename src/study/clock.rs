@@ -64,8 +64,8 @@ pub fn seconds<R>(work: impl FnOnce() -> R) -> (R, f64) {
     (result, start.elapsed().as_secs_f64())
 }
 
-/// Times each variant in a number of rounds, there and back: who goes first in one
-/// round goes last in the next. Nothing is run to warm up.
+/// Times each variant in a number of rounds, there and back: the first variant
+/// of one round is the last of the next. Nothing is run to warm up.
 ///
 /// # Errors
 /// The first one that a variant has.

@@ -89,7 +89,7 @@ pub fn power(points: &[(f64, f64)]) -> Option<Estimate> {
 /// ```
 #[must_use]
 pub fn common_power(groups: &[Vec<(f64, f64)>]) -> Option<Estimate> {
-    // About the centre of its group each point tells of the slope only.
+    // About the centre of its group each point says something of the slope only.
     let mut centered = Vec::new();
     let mut factors = 0;
     for group in groups {

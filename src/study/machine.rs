@@ -9,7 +9,7 @@ use sysinfo::{CpuRefreshKind, MemoryRefreshKind, RefreshKind, System};
 /// The machine at hand, and for which one the program was built.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Machine {
-    /// The processor's name, if the system tells.
+    /// The processor's name, if the system says.
     pub processor: String,
     /// Threads that can run at once.
     pub threads: usize,

@@ -23,7 +23,7 @@ mod tests {
 
     #[test]
     fn memory_that_is_written_to_counts() {
-        // Only where the system tells.
+        // Only where the system says.
         if !forget_peak() {
             return;
         }

@@ -45,7 +45,7 @@ impl Watch for () {
     fn is_done(&self, _: &str, _: f64) {}
 }
 
-/// How the points of a study are worked off.
+/// In what order the points of a study are run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Order {
     /// One after another: for those that measure time.

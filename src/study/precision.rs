@@ -47,10 +47,10 @@ pub const FEWEST_SAMPLES: u64 = 8;
 /// The most points in time at which the runs are compared.
 pub const MOST_SAMPLES: u64 = 10_000;
 
-/// What double-double takes longer than `f64`, roughly.
+/// How many times as long as `f64` double-double takes, roughly.
 const COST: f64 = 40.0;
 
-/// Seconds on the wall that the probe before the study may take.
+/// Seconds of wall time that the probe before the study may take.
 const PROBE: f64 = 0.1;
 
 /// The two precisions that are studied, finest last.

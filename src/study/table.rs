@@ -113,7 +113,7 @@ fn three_digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// A length of time on the wall.
+/// A length of wall time.
 pub fn seconds(value: f64) -> String {
     match value {
         v if v < 0.9995e-3 => format!("{} µs", three_digits(v * 1e6)),

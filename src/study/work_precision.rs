@@ -4,10 +4,10 @@
 //! Every method moves the scene from the same start, which is rounded to its own
 //! precision. The reference is the event-driven engine in double-double: its
 //! times are exact and its rounding is 16 digits below that of `f64`. Time is
-//! that on the wall from a scene in memory to its last state.
+//! wall time from a scene in memory to its last state.
 //!
 //! Collisions make errors grow exponentially. Where a scene's own duration is
-//! past what `f32` can foretell at all, methods are compared over a quarter of
+//! past what `f32` can predict at all, methods are compared over a quarter of
 //! the time that it can; asked for more, it says from when on a
 //! trajectory is lost, since a number there would be noise.
 

@@ -77,7 +77,7 @@ pub(crate) trait Solid<T: Real>: Clone + Into<Feature<T>> {
     }
 }
 
-/// A kind of shape, for those who read scene files.
+/// A kind of shape, as a reader of scene files needs it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShapeKind {
     /// As [`Solid::NAME`].

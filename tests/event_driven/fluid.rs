@@ -81,7 +81,7 @@ fn hard_sphere_fluid_to_four_digits() {
     ];
     for (density, exact, errors) in table {
         let mut world = fluid(4000, density, 2);
-        // Parts are as good as independent: their spread tells the error.
+        // Parts are as good as independent: their spread gives the error.
         let parts: Vec<[f64; 2]> = (0..20).map(|_| measured(&mut world, 500)).collect();
         for (what, name) in ["Z", "Γ"].into_iter().enumerate() {
             let values = parts.iter().map(|part| part[what]);

@@ -73,7 +73,7 @@ fn either_engine_takes_either_scene_with_the_options_of_both() {
     };
     assert_eq!(hash(&stepped, "stepped"), hash(&exact, "stepped"));
     assert_eq!(hash(&stepped, "event-driven"), hash(&exact, "event-driven"));
-    // A step is of no account to an engine without steps.
+    // An engine without steps ignores the length of a step.
     let other = exact.says("run scene.toml --json --dt 0.3 --duration 1.5").summary();
     assert_eq!(other["state_hash"], hash(&exact, "event-driven"));
 }

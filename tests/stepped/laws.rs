@@ -138,7 +138,7 @@ fn rough_ball_in_a_sphere_keeps_its_generalised_spin() {
     }
 }
 
-/// A periodic fluid at density .5 has the pressure and the collision rate of
+/// A periodic fluid at density 0.5 has the pressure and the collision rate of
 /// the literature (mKLM: Z = 3.2694, Γ = (6/√π)(Z − 1)), to what a short run of
 /// 2,048 spheres can show.
 #[test]

@@ -205,7 +205,7 @@ fn same_bits_as_one_contact_after_another() {
     }
 }
 
-/// Overlaps that a step left are worked off in the scene's order, also in long
+/// Overlaps that a step left are resolved in the scene's order, also in long
 /// chains of contacts that share bodies.
 #[test]
 fn chains_of_contacts_keep_the_scenes_order() {

@@ -53,7 +53,7 @@ mass = [1.0, 3.0]
 temperature = 1.0
 "#;
 
-/// A fluid that no method can foretell for long.
+/// A fluid that no method can predict for long.
 const FLUID: &str = r#"
 duration = 20.0
 periodic = "cube"

@@ -78,7 +78,7 @@ struct Extent {
 }
 
 /// Steps in which a sphere of the gas collides 22 times with others by
-/// Enskog's theory: 4 √(π/3) n σ² χ times the distance of 1,080 · .02 σ.
+/// Enskog's theory: 4 √(π/3) n σ² χ times the distance of 1,080 · 0.02 σ.
 const ACCURACY_STEPS: usize = 1080;
 
 impl Extent {

@@ -48,7 +48,7 @@ pub trait World {
     fn advance(&mut self, steps: usize) -> Result<(), PeerError>;
 
     /// Makes `steps` steps and counts the collisions in them, which may cost
-    /// time; `None` when the engine cannot tell.
+    /// time; `None` when the engine cannot count.
     fn advance_counted(&mut self, steps: usize) -> Result<Option<Collisions>, PeerError>;
 
     /// Centre of a body.

@@ -12,17 +12,17 @@ pub enum Settings {
     /// (f64; the defaults: −3.6 %, 1.46 %).
     ///
     /// - No continuous collision detection: the same bits, 17 % less time.
-    /// - No recycled contacts, and contacts predicted .002 diameters ahead
-    ///   instead of .02 (−1.5 %, .71 %). That is less than a sphere moves in a
+    /// - No recycled contacts, and contacts predicted 0.002 diameters ahead
+    ///   instead of 0.02 (−1.5 %, 0.71 %). That is less than a sphere moves in a
     ///   step, so most pairs collide where they overlap slightly and not where
-    ///   they are about to; .005 has the least pair error (−2.0 %, .56 %).
-    ///   On the floor .0003: after 1,000 bounces .07 of the apex is left,
+    ///   they are about to; 0.005 has the least pair error (−2.0 %, 0.56 %).
+    ///   On the floor 0.0003: after 1,000 bounces 0.07 of the apex is left,
     ///   where the default loses all but 1 % of it in 346 bounces.
-    /// - No stabilisation iterations, which are for stacks (±.4 %, .71 %).
+    /// - No stabilisation iterations, which are for stacks (±0.4 %, 0.71 %).
     ///
     /// The default of four solver iterations stays. One saves a tenth of the
     /// time, but the gas gains 1 % of energy and the ball stops after 285
-    /// bounces; eight cost 14 %, leave .43 of the apex and do nothing for the gas.
+    /// bounces; eight cost 14 %, leave 0.43 of the apex and do nothing for the gas.
     Tuned,
     /// rapier's default parameters, but for Δt and the unit of length.
     Defaults,

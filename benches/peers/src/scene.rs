@@ -18,7 +18,7 @@ pub const DIAMETERS_A_STEP: f64 = 0.02;
 pub const PACKING_FRACTION: f64 = 0.1;
 
 /// Angular velocity of the spin scene: |(2, 3, 6)| = 7, so it turns by
-/// 1309 / 131072 ≈ .01 rad a step, exactly.
+/// 1309 / 131072 ≈ 0.01 rad a step, exactly.
 pub const SPIN: [f64; 3] = [2.0 * 187.0 / 2048.0, 3.0 * 187.0 / 2048.0, 6.0 * 187.0 / 2048.0];
 
 /// One sphere: uniform, solid, of mass 1.
@@ -83,7 +83,7 @@ impl Scene {
     }
 
     /// Spheres four diameters apart that all move at the same velocity and
-    /// spin by .01 rad a step about axes of their own: they never meet.
+    /// spin by 0.01 rad a step about axes of their own: they never meet.
     pub fn free_flight(bodies: usize, collisions: bool) -> Self {
         let mut random = Rand64::new(2);
         let speed = DIAMETERS_A_STEP / DT;
@@ -136,7 +136,7 @@ impl Scene {
         for centre in lattice(pairs, 8.0) {
             let approach = direction(&mut random);
             let across = perpendicular(approach, &mut random);
-            // Up to .998 diameters: at a full diameter they would only graze.
+            // Up to 0.998 diameters: at a full diameter they would only graze.
             let impact = 0.998 * random.rand_float().sqrt();
             let path = (5.0 + 25.0 * random.rand_float()) * relative_speed * DT;
             let along = (1.0 - impact * impact).sqrt() + path;

@@ -21,7 +21,7 @@ pub struct ErrorArguments {
     scene: StudiedScene,
 
     /// Times at which methods are compared, the last one judged [default: four
-    /// up to where the scene can be foretold]
+    /// up to where the scene can be predicted]
     #[arg(long, value_name = "TIME,…", value_delimiter = ',', value_parser = positive)]
     times: Vec<f64>,
 

@@ -13,7 +13,7 @@ const LONG: f64 = 10.0;
 /// What a shell reports for a program ended by Ctrl-C.
 const INTERRUPTED: i32 = 130;
 
-/// Tells on standard error how far a study is.
+/// Shows on standard error how far a study is.
 pub struct Teller {
     bar: Mutex<Option<ProgressBar>>,
 }
@@ -84,7 +84,7 @@ impl Drop for Teller {
     }
 }
 
-/// A length of time on the wall, roughly.
+/// A length of wall time, roughly.
 fn about(seconds: f64) -> String {
     match Duration::try_from_secs_f64(seconds) {
         Ok(duration) => format!("about {}", HumanDuration(duration)),

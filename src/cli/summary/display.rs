@@ -128,7 +128,7 @@ impl Summary {
         table
     }
 
-    /// Who gave the momentum that was not there at the start.
+    /// What gave the momentum that the end has and the start has not.
     fn momentum_from(&self) -> Table {
         let mut table = Table::default();
         let momentum = &self.momentum;

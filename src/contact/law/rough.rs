@@ -12,7 +12,7 @@ use crate::vec3::Vec3;
 /// use carom::Vec3;
 /// use carom::contact::{Party, Rough, collide};
 ///
-/// // A shell of radius 1 and mass 1 comes down on the floor aslant.
+/// // A shell of radius 1 and mass 1 comes down on the floor at an angle.
 /// let mut shell = Party {
 ///     velocity: Vec3::new(5.0, 0.0, -1.0),
 ///     spin: Vec3::ZERO,

@@ -81,7 +81,7 @@ fn event<T: Real>(
     let length = outcome.offset.length();
     let normal = outcome.offset * (T::ONE / length);
     let at_contact = |velocity: Vec3<T>| path.velocity(path.end_velocity(velocity), contact.ago);
-    // Contacts of smooth bodies do not read spins.
+    // Collisions of smooth bodies do not read spins.
     let spin_after = |slot: u32, spin: Vec3<T>| match setting.plan.changes_spins {
         true => spin,
         false => at(&state.spin, state.index[slot as usize] as usize),

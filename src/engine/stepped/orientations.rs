@@ -44,7 +44,7 @@ impl<T: Real> Orientations<T> {
         }
     }
 
-    /// Whether contacts change spins, so that each body has a time of its own.
+    /// Whether collisions change spins, so that each body has a time of its own.
     pub fn is_counted(&self) -> bool {
         self.turning == Turning::FromLastContact
     }

@@ -22,6 +22,15 @@ pub struct CompensatedSum {
 
 impl CompensatedSum {
     /// Adds a term.
+    ///
+    /// ```
+    /// use carom::compensated::CompensatedSum;
+    /// let mut sum = CompensatedSum::default();
+    /// for _ in 0..10 {
+    ///     sum.add(0.1);
+    /// }
+    /// assert_eq!(sum.value(), 1.0);
+    /// ```
     #[inline]
     pub fn add(&mut self, term: f64) {
         let (sum, rounded_off) = two_sum(self.sum, term);

@@ -3,7 +3,7 @@
 //!
 //! Roundings without a preferred side make an error that grows as the square
 //! root of their number, those with one an error that grows as the number
-//! (Brouwer, *The Astronomical Journal* 46, 149, 1937). One run does not tell:
+//! (Brouwer, *The Astronomical Journal* 46, 149, 1937). One run is too few:
 //! the laws are those of the root of the mean square over several.
 
 use core::fmt;
@@ -32,7 +32,7 @@ pub enum Law {
     Root,
     /// As the number.
     Linear,
-    /// Neither, or too uncertain to tell.
+    /// Neither, or too uncertain.
     Unclear,
     /// It stays below the distance from 1 to the next number.
     BelowEpsilon,
@@ -61,8 +61,8 @@ pub struct Drift {
 }
 
 /// What a scene conserves: the names, and indices among the samples' figures.
-/// The double-double tells whether the method does: what it does not conserve to
-/// twenty digits, is no matter of precision.
+/// The double-double shows whether the method conserves it: what is lost within
+/// twenty digits there is not lost by the precision.
 #[must_use]
 pub fn invariants(side_by_side: &SideBySide) -> Vec<(usize, &'static str)> {
     const SAME: f64 = 1e-20;
@@ -100,7 +100,7 @@ impl fmt::Display for Law {
         f.write_str(match self {
             Self::Root => "√n",
             Self::Linear => "n",
-            Self::Unclear => "cannot be told",
+            Self::Unclear => "unclear",
             Self::BelowEpsilon => "stays below ε",
         })
     }
@@ -138,9 +138,9 @@ impl Drift {
             power(&points).map_or(f64::NAN, |power| power.value)
         };
         let exponent = jackknife(&tracks, slope);
-        // Runs that are all the same have no error, and tell no more than one.
-        let is_told = exponent.value.is_finite() && exponent.error > SAME_RUNS;
-        let exponent = is_told.then_some(exponent);
+        // Runs that are all the same have no error, and say no more than one.
+        let is_seen = exponent.value.is_finite() && exponent.error > SAME_RUNS;
+        let exponent = is_seen.then_some(exponent);
         let law = match points.iter().all(|point| point.1 < epsilon) {
             true => Law::BelowEpsilon,
             false => Law::of(exponent),

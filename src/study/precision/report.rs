@@ -342,7 +342,7 @@ pub(super) fn with_error(Estimate { value, error }: Estimate) -> String {
 }
 
 fn growth(divergence: &Divergence) -> String {
-    divergence.growth.map_or("cannot be told".to_owned(), |growth| with_error(growth.rate))
+    divergence.growth.map_or("unclear".to_owned(), |growth| with_error(growth.rate))
 }
 
 fn power(divergence: &Divergence) -> String {

@@ -64,7 +64,7 @@ pub(super) struct Run<T: Real> {
     mass: DoubleDouble,
     /// The uniform field.
     pub(super) gravity: Vec3<DoubleDouble>,
-    /// The box that space closes upon itself in.
+    /// The periodic box, if there is one.
     pub(super) periodic: Option<PeriodicBox<T>>,
     /// The greatest radius, length.
     pub(super) radius: f64,

@@ -25,7 +25,7 @@ pub struct SideBySide {
     pub extent: f64,
     /// Whether there is a uniform field.
     pub has_gravity: bool,
-    /// Whether space closes upon itself.
+    /// Whether space is periodic.
     pub is_periodic: bool,
     /// Whether bodies can meet something fixed.
     pub has_surroundings: bool,
@@ -82,7 +82,7 @@ impl<T: Compiled> Companion<T> {
     }
 
     fn finish(self) -> Comparison {
-        // Who stopped had the rest of its collisions still to come.
+        // A run that stopped early lacks the collisions after that.
         let seen = self.comparison.track.samples.iter().rev().nth(1);
         let before = seen.map_or(0.0, |sample| sample.time);
         Comparison { departures: self.comparer.finish(before), ..self.comparison }

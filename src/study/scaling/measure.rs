@@ -42,7 +42,7 @@ pub struct Measurement {
     pub bytes: u64,
     /// The greatest resident size of the process with this world alone, the
     /// making of its scene included, bytes. Of the first variant of a size, where
-    /// the system tells.
+    /// the system says.
     pub peak_resident: Option<u64>,
     /// Making the scene and its world, until the engine can move it, seconds. Of the
     /// first variant of a size.

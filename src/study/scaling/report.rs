@@ -161,7 +161,7 @@ fn speed_ups(settings: &Settings, rows: &[Measurement]) -> Vec<SpeedUp> {
     pairs.map(speed_up).collect()
 }
 
-/// Whose bits are not those of the first one, in words.
+/// The variants that end in other bits than the first one, in words.
 fn differing(rows: &[Measurement]) -> Vec<String> {
     let Some(first) = rows.first() else { return Vec::new() };
     let other = rows.iter().filter(|row| row.state_hash != first.state_hash);

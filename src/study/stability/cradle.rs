@@ -14,7 +14,7 @@ pub(super) const CASE: Case = Case {
     title: "Newton's cradle of 1,000 balls, pairwise in order",
     law: "Equal balls exchange velocities: as many fly off as came in, as fast, and the others \
           rest; N − k collisions for each of the k that came in, touching or not. Where each has \
-          .99 of the mass of the one before, velocities are products of 2m/(m + m′), right to ε \
+          0.99 of the mass of the one before, velocities are products of 2m/(m + m′), right to ε \
           for each collision. Places are right to ε of the length of the row.",
     trials,
     combine: Findings::joined,

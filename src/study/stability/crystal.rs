@@ -13,8 +13,8 @@ use crate::study::invariants::energy_change;
 pub(super) const CASE: Case = Case {
     name: "crystal",
     title: "face-centred cubic crystals; close packing is at density √2",
-    law: "Nobody leaves its cage: no centre is ever half of the distance to its neighbours away from its \
-          place in the lattice. Pressure by free volume, Z = 3/a + 2.566 + .55 a, a = √2/ρ − 1 \
+    law: "No ball leaves its cage: no centre is ever half of the distance to its neighbours away from its \
+          place in the lattice. Pressure by free volume, Z = 3/a + 2.566 + 0.55 a, a = √2/ρ − 1 \
           (Alder, Hoover and Young 1968), to 1 %. Energy and momentum walk by less than 12 √n ε of \
           one body's share; overlaps are 4 δ at most, the rounding of a place and of the time. Where gaps of a/3 are less than 32 \
           roundings of a place, the precision cannot hold it. Normals lie in planes of the lattice to \
@@ -28,7 +28,7 @@ pub(super) const CASE: Case = Case {
 /// Spheres in the crystal, `4·6³`.
 const BODIES: u64 = 864;
 
-/// How often one looks where everybody is.
+/// How often the positions are looked at.
 const LOOKS: u64 = 32;
 
 fn trials(extent: Extent) -> Vec<Trial> {

@@ -13,17 +13,17 @@ use crate::study::invariants::energy_change;
 
 pub(super) const CASE: Case = Case {
     name: "energy",
-    title: "the energy of 256 spheres, density .5, over 16 runs of 6.25·10⁶ collisions each",
+    title: "the energy of 256 spheres, density 0.5, over 16 runs of 6.25·10⁶ collisions each",
     law: "Roundings without a preferred side let the energy walk: the error of 16 runs grows as √n \
-          (Brouwer 1937), to within three standard errors and .05; one with a side lets it drift, \
-          by .015 to .07 ε of a particle's energy at each of its collisions in carom's first \
-          formulas. Now: less than .001 ε, beyond three standard errors.",
+          (Brouwer 1937), to within three standard errors and 0.05; one with a side lets it drift, \
+          by 0.015 to 0.07 ε of a particle's energy at each of its collisions in carom's first \
+          formulas. Now: less than 0.001 ε, beyond three standard errors.",
     trials,
     combine,
     picture: Some(("energy-drift", picture)),
 };
 
-/// Runs of each kind of fluid: one cannot tell √n from n.
+/// Runs of each kind of fluid: one run cannot separate √n from n.
 const RUNS: u64 = 16;
 
 /// Spheres in each: few, so that the error is soon above the last digit.
@@ -142,7 +142,7 @@ fn figures(precision: Precision, name: &str, runs: &[&Curve]) -> Vec<Figure> {
     let half = |what: &str, order: Estimate| {
         let name = format!("{what}, {name}");
         Figure::near(precision, name, order.value, 0.5, 0.05 + 3.0 * order.error, "")
-            .with_law("½ ± (3σ + .05)")
+            .with_law("½ ± (3σ + 0.05)")
     };
     let (n, end) = errors(runs).last().copied().unwrap_or((1.0, f64::NAN));
     let share = end * BODIES as f64 / n.sqrt();
@@ -157,7 +157,7 @@ fn figures(precision: Precision, name: &str, runs: &[&Curve]) -> Vec<Figure> {
             DRIFT + 3.0 * drift.error,
             "ε",
         )
-        .with_law("≤ .001 ε + 3σ"),
+        .with_law("≤ 0.001 ε + 3σ"),
     ]
 }
 

@@ -16,7 +16,7 @@ pub(super) const CASE: Case = Case {
     law: "A place at X is right to ε X: so is the direction of a normal, and by 4 ε X at most of \
           the velocity two bodies part wrongly; overlaps are no deeper than 4 δ, the rounding of a place \
           and of the time. Energy does not know of \
-          places: 12 √n ε of one body's share, as everywhere. Where ε X is more than .01 \
+          places: 12 √n ε of one body's share, as everywhere. Where ε X is more than 0.01 \
           diameters the precision cannot hold the scene.",
     trials,
     combine: Findings::joined,

@@ -43,7 +43,7 @@ pub(super) fn rounds_alike<T: Studied>(part: f64) -> bool {
     (1e-3..1e3).contains(&(part / T::EPSILON.to_f64()))
 }
 
-/// How often one looks for overlaps.
+/// How often overlaps are looked for.
 const LOOKS: u64 = 16;
 
 /// Runs a gas in no field for a number of collisions. No coordinate is above

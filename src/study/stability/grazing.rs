@@ -6,7 +6,7 @@ use crate::contact::Surface;
 
 pub(super) const CASE: Case = Case {
     name: "grazing",
-    title: "two spheres whose paths come within 1 − δ of contact, δ = ±.9 … ±10⁻¹⁷",
+    title: "two spheres whose paths come within 1 − δ of contact, δ = ±0.9 … ±10⁻¹⁷",
     law: "The normal is right to ε/√δ, as the place of contact moves so much along the path; the smooth \
           map is continuous, so no error is greater than some √ε. The rough map has a step at δ = 0: \
           the pair parts as one that meets or as one that misses, each to the same error, and by no \
@@ -27,13 +27,13 @@ fn trials(extent: Extent) -> Vec<Trial> {
 /// What is measured of all pairs.
 #[derive(Default)]
 struct Worst {
-    /// Over ε/√δ, where it is decided who meets.
+    /// Over ε/√δ, where the precision decides whether they meet.
     normal: f64,
     /// Over √ε, everywhere, from the nearer of the two ways to part.
     step: f64,
-    /// Pairs that met and should not, or the other way about.
+    /// Pairs that met and should not, or missed and should not.
     wrong: u64,
-    /// The same where it is too close to tell.
+    /// The same where the precision cannot decide.
     undecided: u64,
 }
 

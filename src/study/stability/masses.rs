@@ -56,8 +56,8 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
         }
         let mut figures = Vec::new();
         for (heavy, what) in ["heavy on light", "light on heavy"].into_iter().enumerate() {
-            for (error, whose) in worst[heavy].into_iter().zip(["light", "heavy"]) {
-                let name = format!("{what}, {ten}: the {whose} one");
+            for (error, which) in worst[heavy].into_iter().zip(["light", "heavy"]) {
+                let name = format!("{what}, {ten}: the {which} one");
                 figures.push(Figure::at_most(
                     T::PRECISION,
                     name,

@@ -153,7 +153,7 @@ impl fmt::Display for StabilityReport {
             [Verdict::Holds, Verdict::Deviates, Verdict::Limit].map(|verdict| self.count(verdict));
         writeln!(
             f,
-            "{holds} figures hold, {fails} fail, {limits} are beyond the precision (limit: told, not judged)."
+            "{holds} figures hold, {fails} fail, {limits} are beyond the precision (limit: reported, not judged)."
         )
     }
 }

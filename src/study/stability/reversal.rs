@@ -15,9 +15,9 @@ pub(super) const CASE: Case = Case {
     name: "reversal",
     title: "to a time and back, with all velocities and spins reversed",
     law: "In a chaotic gas the error of the start that comes back is ε e^(λc), c collisions of each body \
-          one way. Of f64, which has room for it, λ is about .8 (N = 500, density .5, an independent \
+          one way. Of f64, which has room for it, λ is about 0.8 (N = 500, density 0.5, an independent \
           program). It is the gas's own and not the precision's: from c = 3 to 10 both errors grow alike, \
-          and the start comes back to 1 % of a diameter up to c = ln(.01/ε)/λ, less a few. A \
+          and the start comes back to 1 % of a diameter up to c = ln(0.01/ε)/λ, less a few. A \
           regular scene loses no more than a power of the collisions, n^(3/2), as speeds walk by √n ε.",
     trials,
     combine,
@@ -166,14 +166,14 @@ fn judged(name: &str, [single, double]: &[Curve; 2]) -> Vec<Figure> {
         // Up to where a hundredth of a diameter comes back.
         let end = curve.points.iter().take_while(|point| point.1 < 1e-2).last();
         let end = end.map_or(f64::NAN, |point| point.0) * long / (1e-2 / epsilon).ln();
-        let law = "those of both ± .2";
+        let law = "their mean ± 0.2";
         figures.push(
             Figure::near(is, format!("growth, c = 3 to 10, {name}"), early, mean, 0.2, "")
                 .with_law(law),
         );
         figures.push(Figure::near(
             is,
-            format!("c for 1 %, of ln(.01/ε)/λ, {name}"),
+            format!("c to 1 %, of ln(0.01/ε)/λ, {name}"),
             end,
             0.85,
             0.25,

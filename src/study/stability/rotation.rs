@@ -15,11 +15,11 @@ use crate::vec3::Vec3;
 
 pub(super) const CASE: Case = Case {
     name: "rotation",
-    title: "10⁷ steps of .01 rad, the worst of four spins",
+    title: "10⁷ steps of 0.01 rad, the worst of four spins",
     law: "Carom's step, with one Newton step M(3 − MᵗM)/2 in it, holds ‖MᵗM − 1‖ at the rounding of \
-          its elements. Its angle walks by √n ε at most, and drifts by less than .001 ε a step. M ← R M \
+          its elements. Its angle walks by √n ε at most, and drifts by less than 0.001 ε a step. M ← R M \
           alone leaves orthonormality in proportion to the steps: 2.2–3.0·10⁻² (f32), 3.9–5.0·10⁻¹¹ \
-          (f64) after 10⁶ of them by an independent program, that is .18 to .25 ε a step. Others to \
+          (f64) after 10⁶ of them by an independent program, that is 0.18 to 0.25 ε a step. Others to \
           compare with: the polar factor by faer's singular value decomposition, and a renormalised \
           quaternion.",
     trials,
@@ -275,7 +275,7 @@ fn picture(curves: &[Curve]) -> Picture {
         });
         Chart {
             title: label.to_owned(),
-            x: Axis::new("steps of .01 rad", Scale::Logarithmic),
+            x: Axis::new("steps of 0.01 rad", Scale::Logarithmic),
             y: Axis::new(label, Scale::Logarithmic),
             series: series.collect(),
         }

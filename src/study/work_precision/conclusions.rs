@@ -13,7 +13,7 @@ use crate::study::fit::{Estimate, common_power};
 pub struct Judged {
     /// Which one.
     pub method: Method,
-    /// Median time on the wall, seconds.
+    /// Median wall time, seconds.
     pub seconds: f64,
     /// How far it is off.
     pub error: f64,

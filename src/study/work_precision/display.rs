@@ -11,7 +11,7 @@ use crate::study::fit::quantile;
 use crate::study::table::{Table, counted, plain, seconds};
 
 impl WorkPrecisionReport {
-    /// Quantities that tell something: without spins no body turns.
+    /// Quantities that say something: without spins no body turns.
     fn shown(&self) -> Vec<Quantity> {
         let any = |quantity: &Quantity| {
             let mut moments = self.outcomes.iter().flat_map(|outcome| &outcome.moments);

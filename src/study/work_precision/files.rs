@@ -127,7 +127,7 @@ impl WorkPrecisionReport {
         Picture {
             charts: vec![Chart {
                 title: format!("{}, up to time {:.4}", self.subject.name, self.time),
-                x: Axis::new("time on the wall, s", Scale::Logarithmic),
+                x: Axis::new("wall time, s", Scale::Logarithmic),
                 y: Axis::new(
                     &format!("error of {}, {}", self.quantity, self.quantity.unit()),
                     Scale::Logarithmic,

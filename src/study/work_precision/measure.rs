@@ -18,7 +18,7 @@ use crate::study::{Course, StudyError};
 pub struct Outcome {
     /// The errors at each of the times.
     pub moments: Vec<Moment>,
-    /// The time on the wall that it takes to the last of the times, on each
+    /// The wall time that it takes to the last of the times, on each
     /// execution.
     pub timings: Vec<Timing>,
     /// Of the last state.
@@ -125,7 +125,7 @@ pub(super) fn probe(file: &SceneFile, method: &Method, end: f64) -> Result<f64, 
 }
 
 fn probe_in<T: Compiled>(file: &SceneFile, method: &Method, end: f64) -> Result<f64, StudyError> {
-    /// Seconds that are enough to tell.
+    /// Seconds that are enough for an estimate.
     const ENOUGH: f64 = 0.002;
     let scene = method.scene::<T>(file, end)?;
     let alone = Execution { threads: 1, ..Execution::default() };

@@ -70,7 +70,7 @@ pub(super) fn collisions_of_a_body<T: Real>(world: &World<T>) -> f64 {
     world.collisions().ends() as f64 / world.plan().bodies as f64
 }
 
-/// How far a scene can be foretold.
+/// How far a scene can be predicted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Horizon {
     /// Up to where methods are compared, in the scene's unit of time.
@@ -84,7 +84,7 @@ pub(super) struct Horizon {
     pub(super) speed: f64,
 }
 
-/// Looks at a scene this many times to find out how far it can be foretold.
+/// Looks at a scene this many times to find out how far it can be predicted.
 const LOOKS: u32 = 32;
 
 /// Methods with steps have errors ten thousand times as great as `f32` at its

@@ -107,7 +107,7 @@ impl WorkPrecisionReport {
         if self.judged + 1 < self.sweep.times.len() {
             notes.push(format!(
                 "At time {last:.3e} every method has lost the trajectories: that is past what can \
-                 be foretold. Judged is time {:.3e}.",
+                 be predicted. Judged is time {:.3e}.",
                 self.time
             ));
         }
@@ -171,7 +171,7 @@ impl WorkPrecisionReport {
         moment.deviation.filter(|_| is_told).map(|deviation| quantity.of(&deviation))
     }
 
-    /// Times on the wall and errors of all methods that are not lost at one of
+    /// Wall times and errors of all methods that are not lost at one of
     /// the times.
     pub(super) fn results(&self, time: usize, quantity: Quantity) -> Vec<Judged> {
         let methods = self.sweep.methods.iter().zip(&self.outcomes);

@@ -16,7 +16,7 @@ use crate::study::StudyError;
 /// What a person asks for; what is left out is chosen to suit the scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Asked {
-    /// Up to when, whatever can be foretold, in the scene's unit of time.
+    /// Up to when, whatever can be predicted, in the scene's unit of time.
     pub duration: Option<f64>,
     /// Times of comparison, in the scene's unit of time; the last one is judged.
     pub times: Vec<f64>,
@@ -68,7 +68,7 @@ const RATIO: f64 = 1.9;
 const MOST_STEPS: f64 = 1e12;
 
 impl Sweep {
-    /// What suits a scene that can be foretold so far.
+    /// What suits a scene that can be predicted so far.
     pub(super) fn new(
         file: &SceneFile,
         asked: &Asked,
@@ -169,7 +169,7 @@ fn times(asked: &Asked, end: f64) -> Result<Vec<f64>, StudyError> {
 /// All divide an eighth of the way into whole numbers of steps.
 fn ladder(file: &SceneFile, scene: &Scene<f64>, horizon: &Horizon, end: f64) -> Vec<f64> {
     let dt = file.dt.unwrap_or_else(|| {
-        // Without one, in which a body flies .02 diameters.
+        // Without one, in which a body flies 0.02 diameters.
         let way = 0.04 * length_scale(scene);
         let falls = scene.gravity.length() * end;
         way / horizon.speed.max(falls / 2.0).max(f64::MIN_POSITIVE)
