@@ -24,6 +24,10 @@ const FAR: i32 = 64;
 /// Units are far from a scene's own where a binary exponent is greater than this.
 const MOST_EXPONENT: i32 = 20;
 
+/// The greatest change of a unit, as a binary exponent, in a precision with the range of
+/// a double, and of a single. What is farther off leaves the range of numbers.
+const MOST_SCALING: [i32; 2] = [500, 64];
+
 /// The greatest binary exponent of a factor, so that its square is a number.
 const MOST_SCALED: i32 = 120;
 
@@ -193,16 +197,14 @@ fn far_exponent<T: Real>(value: f64) -> i32 {
         return 0;
     }
     // By its bits: a platform's logarithm may round across a whole number.
-    let mut exponent = (value.to_bits() >> 52) as i32 - 1023;
+    let exponent = (value.to_bits() >> 52) as i32 - 1023;
     if exponent.abs() <= MOST_EXPONENT {
         return 0;
     }
-    // The factors there and back must be numbers of the precision.
-    let is_number = |value: T| value.is_finite() && value > T::ZERO;
-    while !is_number(factor(exponent)) || !is_number(factor(-exponent)) {
-        exponent -= exponent.signum();
-    }
-    exponent
+    let [double, single] = MOST_SCALING;
+    let is_double = factor::<T>(double).is_finite();
+    let most = if is_double { double } else { single };
+    exponent.clamp(-most, most)
 }
 
 /// `2^exponent` as far as an `f64` goes.

@@ -70,6 +70,11 @@ impl<T: Real> Cells<T> {
         Self::new(span, reach, wanted, most.min(MOST_NUMBERS))
     }
 
+    /// One empty cell.
+    pub fn whole(span: Span<T>) -> Self {
+        Self::of_counts(span, [1; 3], CELLS_BESIDES)
+    }
+
     /// A grid of at most `most` empty cells with sides of at least `reach`, of
     /// `wanted` if that is more.
     fn new(span: Span<T>, reach: T, wanted: T, most: u64) -> Self {

@@ -75,6 +75,11 @@ impl<T: Real> Levels<T> {
         several.unwrap_or_else(|| Self::one(one, greatest))
     }
 
+    /// One cell for all bodies of up to a radius.
+    pub fn whole(span: Span<T>, radius: T) -> Self {
+        Self::one(Cells::whole(span), radius)
+    }
+
     fn one(cells: Cells<T>, greatest: T) -> Self {
         let level = Level { cells, greatest, least: T::ZERO, shift: 0, shells: Vec::new() };
         Self { finest: level, coarser: Vec::new() }

@@ -50,6 +50,9 @@ pub struct Reference<'a, T: Real> {
     /// Time since the period's start.
     now: T,
     is_too_fast: bool,
+    /// Periods without a collision, and when there was the last one in this.
+    idle: u32,
+    last_collision: T,
 }
 
 /// What the reference says of a collision: all that an [`Event`] does.
@@ -109,6 +112,8 @@ impl<'a, T: Real> Reference<'a, T> {
             too_fast: T::ZERO,
             now: T::ZERO,
             is_too_fast: false,
+            idle: 0,
+            last_collision: T::ZERO,
         };
         reference.begin_period(T::ZERO);
         reference
@@ -126,6 +131,7 @@ impl<'a, T: Real> Reference<'a, T> {
             match first {
                 Some((time, with)) if time <= self.now + window => {
                     self.now = time;
+                    self.last_collision = time;
                     let time = self.not_before(time);
                     return (time <= until).then(|| self.happen(with));
                 }
@@ -349,6 +355,8 @@ impl<'a, T: Real> Reference<'a, T> {
             let position = self.scene.periodic.map_or(position, |space| space.wrap(position));
             self.balls[k] = Ball { position, velocity, since: T::ZERO, ..self.balls[k] };
         }
+        self.idle = if self.last_collision == T::ZERO { self.idle + 1 } else { 0 };
+        self.last_collision = T::ZERO;
         self.origin.add(end.to_f64());
         self.now = T::ZERO;
         self.is_too_fast = false;
@@ -358,7 +366,9 @@ impl<'a, T: Real> Reference<'a, T> {
         let spacing = self.spacing.to_f64();
         let fallen = self.scene.gravity.length().to_f64() * spacing;
         let speed = mean.max(most / 64.0).max(fallen).sqrt();
-        let flight = (8.0 * spacing / speed).clamp(1e-25, 1e25);
+        // After some periods without a collision they grow.
+        let longer = 2.0_f64.powi(self.idle.saturating_sub(16).min(256) as i32);
+        let flight = ((8.0 * spacing / speed).max(1e-25) * longer).min(2.0_f64.powi(100));
         self.period = T::from_f64(flight.log2().floor().exp2());
         self.too_fast = T::from_f64((16.0 * speed * (16.0 * speed)).max(1e-30));
     }

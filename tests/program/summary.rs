@@ -69,7 +69,8 @@ fn momentum_balances() {
 
 #[test]
 fn energy_changes_by_what_the_integrator_is_known_to_do() {
-    let folder = Folder::with(BOX);
+    let euler = "dt = 0.01\nintegrator = \"semi-implicit-euler\"\nimpact = \"end-of-step\"";
+    let folder = Folder::with(&BOX.replace("dt = 0.01", euler));
     let summary = folder.says("run scene.toml --json").summary();
     let change = number(&summary, "/energy/final") - number(&summary, "/energy/initial");
     let drift = number(&summary, "/energy/integrator_drift");

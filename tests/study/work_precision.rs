@@ -109,7 +109,8 @@ fn integrators_have_their_orders() {
     assert!(outcome.moments.iter().all(|moment| moment.deviation.unwrap().position < 1e-11));
     let (method, outcome) = (report.sweep.methods.iter().zip(&report.outcomes))
         .find(|(method, _)| {
-            method.to_string().starts_with("semi-implicit Euler") && method.precision == Precision::F64
+            method.to_string().starts_with("semi-implicit Euler")
+                && method.precision == Precision::F64
         })
         .unwrap();
     let moment = outcome.moments.last().unwrap();

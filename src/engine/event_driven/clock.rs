@@ -7,6 +7,9 @@ use crate::real::Real;
 /// Turns that may pass while time stands still, for scenes of few bodies.
 const PATIENCE: u64 = 1 << 20;
 
+/// Periods in which nothing happens before they grow longer.
+const IDLE: u32 = 16;
+
 /// Time, counted from the start of the present period. A restart file keeps all
 /// of it.
 #[derive(Clone, Debug)]
@@ -21,6 +24,8 @@ pub(super) struct Clock<T> {
     pub last_collision: T,
     /// Time that has been asked for, since the start of the run.
     pub time: f64,
+    /// Periods since the last one in which bodies collided.
+    idle: u32,
     /// Turns taken in this period.
     turns: u64,
     /// Time has advanced when it is past this one.
@@ -38,6 +43,7 @@ impl<T: Real> Clock<T> {
             too_fast: T::ZERO,
             last_collision: T::ZERO,
             time: 0.0,
+            idle: 0,
             turns: 0,
             progress: T::ZERO,
             standstill: 0,
@@ -55,6 +61,14 @@ impl<T: Real> Clock<T> {
         self.progress = T::ZERO;
         let turns = core::mem::take(&mut self.turns);
         (turns > 0 && end != T::ZERO).then(|| turns as f64 / end.to_f64())
+    }
+
+    /// How much longer than others the next period is, as a binary exponent: after a few
+    /// in which nothing happens each is twice as long as the one before.
+    pub fn idle_exponent(&mut self) -> u32 {
+        let is_idle = self.last_collision == T::ZERO;
+        self.idle = if is_idle { self.idle.saturating_add(1) } else { 0 };
+        self.idle.saturating_sub(IDLE)
     }
 
     /// The present period's start, time since the start of the run.

@@ -33,8 +33,9 @@ const TOGETHER: f64 = 24.0;
 /// Turns for each body in the first period, before any were counted.
 const TURNS: f64 = 64.0;
 
-/// The longest period, about 10²⁴, for bodies that meet nothing or stand still.
-const LONGEST: f64 = (1_u128 << 80) as f64;
+/// Binary exponents of the longest period, for bodies that meet nothing or stand still:
+/// of a precision with the range of a double, and of a single.
+const LONGEST: [i32; 2] = [900, 100];
 
 /// Ends the present period at a time of it, and begins the next one.
 pub(super) fn begin_period<T: Real>(
@@ -54,9 +55,10 @@ pub(super) fn begin_period<T: Real>(
             end_flight(setting, region, account, slot, end, T::ZERO);
         }
     }
+    let longer = clock.idle_exponent();
     let counted = clock.end_period(end);
     region.is_too_fast = false;
-    (clock.period, clock.too_fast) = chosen_period(setting, region);
+    (clock.period, clock.too_fast) = chosen_period(setting, region, longer);
     let turns =
         counted.unwrap_or_else(|| TURNS * region.records.len() as f64 / clock.period.to_f64());
     region.calendar.begin(clock.period, turns, TOGETHER);
@@ -122,9 +124,9 @@ fn follows_hollow<T: Real>(setting: &Setting<T>, region: &Region<T>, slot: usize
 /// The power of two nearest below the time that bodies take for a few mean
 /// distances: multiples of it are added up without rounding. And the square of
 /// the speed from which that is too long.
-fn chosen_period<T: Real>(setting: &Setting<T>, region: &Region<T>) -> (T, T) {
+fn chosen_period<T: Real>(setting: &Setting<T>, region: &Region<T>, longer: u32) -> (T, T) {
     if !setting.plan.has_pairs && setting.features.is_empty() {
-        return (T::from_f64(LONGEST), T::from_f64(LONGEST));
+        return (T::from_f64(longest::<T>()), T::from_f64(longest::<T>()));
     }
     let len = region.records.len();
     let mut squares = vec![0.0; len];
@@ -137,9 +139,15 @@ fn chosen_period<T: Real>(setting: &Setting<T>, region: &Region<T>) -> (T, T) {
     let spacing = setting.spacing.to_f64();
     let fallen = setting.gravity.length().to_f64() * spacing;
     let speed = mean.max(most / (FAST * FAST)).max(fallen).sqrt();
-    let flight = (FLIGHT * spacing / speed).clamp(1e-25, LONGEST);
+    let longer = 2.0_f64.powi(longer.min(1 << 8) as i32);
+    let flight = ((FLIGHT * spacing / speed).max(1e-25) * longer).min(longest::<T>());
     let limit = 2.0 * FAST * speed;
     (T::from_f64(power_of_two_below(flight)), T::from_f64((limit * limit).max(1e-30)))
+}
+
+fn longest<T: Real>() -> f64 {
+    let [double, single] = LONGEST.map(|exponent| 2.0_f64.powi(exponent));
+    if T::from_f64(double).is_finite() { double } else { single }
 }
 
 /// What the errors of the coarse precision are measured by.

@@ -15,6 +15,10 @@ use crate::space::{OpenSpace, PeriodicBox, Space};
 use crate::surroundings::{Feature, features_of};
 use crate::vec3::Vec3;
 
+/// So few bodies and fixed parts are tried all with each other: no cells are crossed,
+/// however far they are apart and however fast.
+const FEW: usize = 16;
+
 /// The scene and its plan. All of it follows from the scene: a restart file
 /// keeps the scene instead.
 #[derive(Debug)]
@@ -73,11 +77,19 @@ impl<T: Real> Setting<T> {
         let fitting = |span| Levels::fitting(span, &bodies.radius, len, bounded);
         // Each image of a solid without end would be near everywhere.
         let can_fold = !is_periodic || bounded == features.len();
-        let cells = can_fold
-            .then(|| fitting(grid.folded(least, radius + radius, &bodies.position)))
-            .filter(|cells| cells.finest().can_number(&grid))
-            .unwrap_or_else(|| fitting(grid));
-        let near = Near::new(&features, &images, cells.finest(), radius);
+        let is_few = !is_periodic && len + features.len() <= FEW;
+        let cells = if is_few { Some(Levels::whole(grid, radius)) } else { None };
+        let cells = cells.or_else(|| {
+            can_fold
+                .then(|| fitting(grid.folded(least, radius + radius, &bodies.position)))
+                .filter(|cells| cells.finest().can_number(&grid))
+        });
+        let cells = cells.unwrap_or_else(|| fitting(grid));
+        let near = if is_few {
+            Near::everywhere_of(features.len())
+        } else {
+            Near::new(&features, &images, cells.finest(), radius)
+        };
         let setting = Self {
             gravity: scene.gravity,
             periodic: scene.periodic,
@@ -86,7 +98,7 @@ impl<T: Real> Setting<T> {
             images,
             further: further(cells.coarsest(), is_periodic),
             coarse_further: further(cells.coarsest(), is_periodic),
-            has_cells: plan.has_pairs || near.has_cells(),
+            has_cells: !is_few && (plan.has_pairs || near.has_cells()),
             near,
             search_bodies: searcher(&plan, is_periodic),
             spacing: grid.spacing(radius + radius, len),
