@@ -3,12 +3,13 @@
 use super::path::Stretch;
 use super::region::Region;
 use super::setting::Setting;
-use super::state::{State, put};
-use crate::bodies::{Columns3, at};
+use super::state::State;
+use crate::bodies::Columns3;
+use crate::column::Column;
 use crate::lane::Lane;
 use crate::motion::flight::Wrap;
 use crate::real::Real;
-use crate::space::broadphase::Surveyed;
+use crate::vec3::Vec3;
 
 /// Steps that a search for bodies near fixed features should be good for where
 /// there are no pairs: few bodies are near, and a search is worth many steps.
@@ -16,7 +17,7 @@ const STEPS_ALONE: i32 = 64;
 
 /// Searches again for all that can touch within the skin, when bodies move by
 /// `travel` in a step at most. Where contacts have times, bodies are looked at
-/// where they are at the end of a stretch of the step just taken.
+/// where they are at the beginning of a stretch of the step just taken.
 pub(super) fn renew<L: Lane<Scalar = T>, T: Real>(
     setting: &Setting<T>,
     region: &mut Region<T>,
@@ -24,7 +25,6 @@ pub(super) fn renew<L: Lane<Scalar = T>, T: Real>(
     stretch: Option<Stretch<T>>,
 ) {
     let (state, nearby) = (&mut region.state, &mut region.nearby);
-    // Within the stretch bodies were further apart or nearer by as much.
     let way = stretch.map_or(T::ZERO, |stretch| stretch.way());
     let swept = nearby.broadphase.swept(way);
     let pairs = setting.plan.has_pairs;
@@ -33,33 +33,42 @@ pub(super) fn renew<L: Lane<Scalar = T>, T: Real>(
     let skin = nearby.broadphase.skin(travel, nearby.skin).greater(swept).greater(alone);
     nearby.skin = skin;
     let (periodic, features, workers) = (setting.periodic, &setting.features, &setting.workers);
-    let until = stretch.map_or(T::ZERO, |stretch| stretch.until);
-    let moved = (until > T::ZERO).then(|| positions(setting, state, until));
+    // Wherever contacts send it, a body is never farther than its way from where
+    // it is at the beginning of the stretch.
+    let from = stretch.map_or(T::ZERO, |stretch| stretch.from);
+    let begun = stretch.map(|_| positions::<L, T>(setting, state, from));
     let mut surveyed = state.surveyed(periodic, features, pairs);
-    if let Some(position) = &moved {
-        surveyed = Surveyed { position, ..surveyed };
-    }
+    surveyed.position = begun.as_ref().unwrap_or(surveyed.position);
     let order = nearby.broadphase.sort(&surveyed, skin, workers);
     state.reorder(order, workers);
     region.pending.struck.reorder(order);
-    let moved = (until > T::ZERO).then(|| positions(setting, state, until));
+    let begun = stretch.map(|_| positions::<L, T>(setting, state, from));
     let mut surveyed = state.surveyed(periodic, features, pairs);
-    if let Some(position) = &moved {
-        surveyed = Surveyed { position, ..surveyed };
-    }
+    surveyed.position = begun.as_ref().unwrap_or(surveyed.position);
     nearby.broadphase.search::<L, _>(&surveyed, skin, &mut nearby.candidates, workers);
     nearby.neighbourhoods.clear();
     nearby.travelled = way;
 }
 
 /// Where all bodies are a time before the end of the step, on their present paths.
-fn positions<T: Real>(setting: &Setting<T>, state: &State<T>, ago: T) -> Columns3<T> {
+fn positions<L: Lane<Scalar = T>, T: Real>(
+    setting: &Setting<T>,
+    state: &State<T>,
+    ago: T,
+) -> Columns3<T> {
     let mut moved = state.position.clone();
-    for slot in 0..state.index.len() {
-        let velocity = setting.path.end_velocity(at(&state.velocity, slot));
-        let center = setting.path.center(at(&state.position, slot), velocity, ago);
+    let [x, y, z] = moved.each_mut().map(Column::padded_mut);
+    let load = |columns: &Columns3<T>, slot: usize| {
+        let [x, y, z] = columns.each_ref().map(|column| L::load(&column.padded()[slot..]));
+        Vec3::new(x, y, z)
+    };
+    for slot in (0..state.index.len()).step_by(L::WIDTH) {
+        let velocity = setting.path.end_velocity(load(&state.velocity, slot));
+        let center = setting.path.center(load(&state.position, slot), velocity, L::splat(ago));
         let center = setting.periodic.map_or(center, |space| space.wrap(center));
-        put(&mut moved, slot, center);
+        center.x.store(&mut x[slot..]);
+        center.y.store(&mut y[slot..]);
+        center.z.store(&mut z[slot..]);
     }
     moved
 }

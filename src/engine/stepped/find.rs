@@ -9,8 +9,8 @@ use super::state::State;
 use crate::bodies::{Figure, PerBody, Same};
 use crate::lane::Lane;
 use crate::real::Real;
-use crate::space::broadphase::{Candidates, Chunk};
 use crate::space::OpenSpace;
+use crate::space::broadphase::{Candidates, Chunk};
 
 /// Finds all contacts at the end of the step, in their order.
 pub(super) fn find_contacts<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {

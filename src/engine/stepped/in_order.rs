@@ -83,7 +83,9 @@ pub(super) fn collide_in_order<T: Real>(
     }
     loop {
         find_due(setting, region, stretch);
-        if let Err(broken_off) = take_due(setting, region, clock, account, record.as_deref_mut(), stretch) {
+        if let Err(broken_off) =
+            take_due(setting, region, clock, account, record.as_deref_mut(), stretch)
+        {
             stretch = next_stretch(setting, region, broken_off);
         } else if stretch.until > T::ZERO {
             let from = stretch.until;
@@ -109,7 +111,11 @@ fn is_within_box<T: Real>(setting: &Setting<T>, way: T) -> bool {
 }
 
 /// The stretch from a time on, with candidates that are complete for it.
-fn next_stretch<T: Real>(setting: &Setting<T>, region: &mut Region<T>, rest: Stretch<T>) -> Stretch<T> {
+fn next_stretch<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    rest: Stretch<T>,
+) -> Stretch<T> {
     let rest = Stretch { until: T::ZERO, ..rest };
     let by_search = region.nearby.broadphase.longest_way(setting.plan.has_pairs);
     let longest = [by_search, longest_in_box(setting)].into_iter().flatten().reduce(T::lesser);
@@ -226,7 +232,12 @@ fn look_ahead<T: Real>(
 
 /// Puts the contacts found into the queue, but those of a pair that has just met,
 /// with nothing between; through the other side of a periodic box it may well meet.
-fn expect<T: Real>(setting: &Setting<T>, region: &mut Region<T>, stretch: Stretch<T>, further: &[Vec3<T>]) {
+fn expect<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    stretch: Stretch<T>,
+    further: &[Vec3<T>],
+) {
     let (state, nearby, pending) = (&region.state, &region.nearby, &mut region.pending);
     let struck = &pending.struck;
     let mut met_again = Vec::new();
@@ -235,7 +246,7 @@ fn expect<T: Real>(setting: &Setting<T>, region: &mut Region<T>, stretch: Stretc
             continue;
         }
         if contact.rank.is_pair() && struck.is_again(&contact) {
-            if further.len() > 1 {
+            if setting.periodic.is_some() {
                 met_again.push([contact.a, contact.b]);
             }
             continue;

@@ -9,8 +9,8 @@ use crate::contact::past_contact;
 use crate::lane::{Lane, Mask};
 use crate::motion::flight::Wrap;
 use crate::real::Real;
-use crate::space::{PeriodicBox, Space};
 use crate::space::broadphase::Pair;
+use crate::space::{PeriodicBox, Space};
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -211,7 +211,8 @@ impl<T: Real> WithinStep<'_, T> {
             }
             // It has left one image only.
             let rounding = T::whole(64) * T::EPSILON * end.length();
-            let is_leaving = is_last && gap(since).abs() <= rounding.greater(radius / T::whole(1024));
+            let is_leaving =
+                is_last && gap(since).abs() <= rounding.greater(radius / T::whole(1024));
             path.contact(feature, (end, velocity), radius, since, is_leaving)
         };
         space.images().into_iter().filter_map(through).reduce(Lane::greater)
@@ -298,7 +299,8 @@ fn sweep_surroundings<L, T, D, R>(
     R: Figure<T>,
 {
     for bodies in bodies.chunks_exact(L::WIDTH) {
-        let (touching, ago) = detection.surroundings::<L, R>(state, radius, (number, feature), bodies);
+        let (touching, ago) =
+            detection.surroundings::<L, R>(state, radius, (number, feature), bodies);
         push(touching, ago, found, |k| {
             (bodies[k], number, Rank::of_surroundings(state.index[bodies[k] as usize], number))
         });
