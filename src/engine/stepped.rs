@@ -19,6 +19,7 @@ mod narrow;
 mod neighbourhoods;
 mod orientations;
 mod path;
+mod queue;
 mod record;
 mod region;
 mod resolve;

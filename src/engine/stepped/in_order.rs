@@ -14,8 +14,6 @@
 //! In rounds of all contacts that are first for their bodies, one in 3,000 came too
 //! late at 0.13 diameters a step, as its body should have met a third one before.
 
-use core::cmp::Ordering;
-
 use super::apply::apply;
 use super::candidates::renew;
 use super::clock::Clock;
@@ -25,10 +23,12 @@ use super::impact::Outcome;
 use super::lanes::in_lanes;
 use super::narrow::WithinStep;
 use super::path::Stretch;
+use super::queue::Due;
 use super::record::Record;
-use super::region::Region;
+use super::region::{Pending, Region};
 use super::resolve::impulses_of_kind;
 use super::setting::Setting;
+use super::struck::Struck;
 use crate::engine::account::Account;
 use crate::real::Real;
 use crate::space::broadphase::Chunk;
@@ -36,35 +36,6 @@ use crate::vec3::Vec3;
 
 /// Into how many stretches a step is cut at most for bodies that move far in it.
 const MOST_STRETCHES: i32 = 1024;
-
-/// A contact that takes effect in its turn, unless a body has another one before.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Due<T> {
-    contact: Contact<T>,
-    /// How many contacts its bodies had had when it was found.
-    count: u32,
-}
-
-impl<T: Real> Ord for Due<T> {
-    /// The first one is the greatest.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.contact.order(&self.contact)
-    }
-}
-
-impl<T: Real> PartialOrd for Due<T> {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl<T: Real> Eq for Due<T> {}
-
-impl<T: Real> PartialEq for Due<T> {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
 
 /// Lets all contacts within a step take effect, when bodies move by `travel` in it
 /// at most before the first one.
@@ -132,25 +103,30 @@ fn next_stretch<T: Real>(
     stretch
 }
 
+/// What is looked for in a stretch.
+fn within<'a, T: Real>(
+    setting: &'a Setting<T>,
+    struck: &'a Struck<T>,
+    stretch: Stretch<T>,
+    further: &'a [Vec3<T>],
+) -> WithinStep<'a, T> {
+    let (path, periodic) = (&setting.path, setting.periodic);
+    WithinStep { path, struck, stretch, periodic, further, is_again: false }
+}
+
 /// Finds the first contacts of all candidates in a stretch.
 fn find_due<T: Real>(setting: &Setting<T>, region: &mut Region<T>, stretch: Stretch<T>) {
     let further = further(setting, region, stretch);
     let (state, nearby, pending) = (&region.state, &region.nearby, &mut region.pending);
-    let detection = WithinStep {
-        path: &setting.path,
-        struck: &pending.struck,
-        stretch,
-        periodic: setting.periodic,
-        further: &further,
-        is_again: false,
-    };
+    let detection = within(setting, &pending.struck, stretch, &further);
     find(setting, state, nearby, detection, &mut pending.found);
     pending.ahead.clear();
     for found in &pending.found {
         pending.ahead.extend_from_slice(found);
     }
-    pending.due.clear();
-    expect(setting, region, stretch, &further);
+    pass_over_repeats(setting, region, stretch, &further);
+    let Pending { queue, ahead, struck, .. } = &mut region.pending;
+    queue.begin(ahead.iter().map(|&contact| Due { contact, count: struck.count(&contact) }));
 }
 
 /// Takes the contacts of a stretch in their order. `Err` if one has made a body so
@@ -165,7 +141,7 @@ fn take_due<T: Real>(
 ) -> Result<(), Stretch<T>> {
     let mut images = further(setting, region, stretch);
     let field = setting.acceleration.map_or(T::ZERO, Vec3::length) * setting.dt;
-    while let Some(Due { contact, count }) = region.pending.due.pop() {
+    while let Some(Due { contact, count }) = region.pending.queue.take() {
         if count != region.pending.struck.count(&contact) {
             continue;
         }
@@ -217,59 +193,43 @@ fn look_ahead<T: Real>(
     }
     // Whole packs: no body meets itself.
     near.fill_up(setting.plan.gather_lanes, [contact.a; 2]);
-    let detection = WithinStep {
-        path: &setting.path,
-        struck: &pending.struck,
-        stretch,
-        periodic: setting.periodic,
-        further,
-        is_again: false,
-    };
+    let detection = within(setting, &pending.struck, stretch, further);
     pending.ahead.clear();
     search_chunk(setting, state, nearby, detection, near, &mut pending.ahead);
-    expect(setting, region, stretch, further);
+    pass_over_repeats(setting, region, stretch, further);
+    let Pending { queue, ahead, struck, .. } = &mut region.pending;
+    for &contact in &*ahead {
+        queue.add(Due { contact, count: struck.count(&contact) });
+    }
 }
 
-/// Puts the contacts found into the queue, but those of a pair that has just met,
-/// with nothing between; through the other side of a periodic box it may well meet.
-fn expect<T: Real>(
+/// Leaves out of the contacts found those of a pair that has just met, with nothing
+/// between, and those of bodies that have had all contacts of a step.
+fn pass_over_repeats<T: Real>(
     setting: &Setting<T>,
     region: &mut Region<T>,
     stretch: Stretch<T>,
     further: &[Vec3<T>],
 ) {
-    let (state, nearby, pending) = (&region.state, &region.nearby, &mut region.pending);
-    let struck = &pending.struck;
-    let mut met_again = Vec::new();
-    for &contact in &pending.ahead {
-        if contact.bodies().any(|slot| struck.is_spent(slot)) {
-            continue;
-        }
-        if contact.rank.is_pair() && struck.is_again(&contact) {
-            if setting.periodic.is_some() {
-                met_again.push([contact.a, contact.b]);
-            }
-            continue;
-        }
-        pending.due.push(Due { contact, count: struck.count(&contact) });
-    }
-    if met_again.is_empty() {
+    let (state, nearby) = (&region.state, &region.nearby);
+    let Pending { ahead, struck, .. } = &mut region.pending;
+    if struck.is_empty() {
         return;
     }
-    let mut near = Chunk::default();
-    met_again.into_iter().for_each(|pair| near.add_pair(pair));
-    let detection = WithinStep {
-        path: &setting.path,
-        struck,
-        stretch,
-        periodic: setting.periodic,
-        further,
-        is_again: true,
-    };
-    let mut found = Vec::new();
-    search_chunk(setting, state, nearby, detection, &near, &mut found);
-    for contact in found {
-        pending.due.push(Due { contact, count: struck.count(&contact) });
+    let mut met = Chunk::default();
+    ahead.retain(|contact| {
+        let is_again = contact.rank.is_pair() && struck.is_again(contact);
+        if is_again {
+            met.add_pair([contact.a, contact.b]);
+        }
+        !is_again && !contact.bodies().any(|slot| struck.is_spent(slot))
+    });
+    if setting.periodic.is_some() && !met.pairs[0].is_empty() {
+        // Through the other side of the box they may well meet.
+        let detection = within(setting, struck, stretch, further);
+        let detection = WithinStep { is_again: true, ..detection };
+        search_chunk(setting, state, nearby, detection, &met, ahead);
+        ahead.retain(|contact| !contact.bodies().any(|slot| struck.is_spent(slot)));
     }
 }
 

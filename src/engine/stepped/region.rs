@@ -2,15 +2,14 @@
 
 use super::contacts::{Contact, Rounds};
 use super::impact::Outcome;
-use super::in_order::Due;
 use super::neighbourhoods::Neighbourhoods;
+use super::queue::Queue;
 use super::setting::Setting;
 use super::state::State;
 use super::struck::Struck;
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::space::broadphase::{BroadPhase, Candidates, Chunk};
-use std::collections::BinaryHeap;
 
 /// The bodies, what is near what, and the contacts of the present step.
 ///
@@ -46,8 +45,8 @@ pub(super) struct Pending<T: Real> {
     pub now: Vec<Contact<T>>,
     pub outcomes: Vec<Outcome<T>>,
     pub rounds: Rounds,
-    /// Within the step: those that have not taken effect, the first one on top.
-    pub due: BinaryHeap<Due<T>>,
+    /// Within the step: those that have not taken effect.
+    pub queue: Queue<T>,
     pub struck: Struck<T>,
     /// The candidates of the bodies that a contact has sent on new paths, and
     /// what these lead to.
@@ -83,7 +82,7 @@ impl<T: Real> Region<T> {
                 now: Vec::new(),
                 outcomes: Vec::new(),
                 rounds: Rounds::new(at_end),
-                due: BinaryHeap::new(),
+                queue: Queue::new(),
                 struck: Struck::new(within, setting.dt),
                 near: Chunk::default(),
                 ahead: Vec::new(),
@@ -95,16 +94,16 @@ impl<T: Real> Region<T> {
     /// The bytes of memory that it holds.
     pub fn bytes(&self) -> usize {
         let Nearby { broadphase, candidates, neighbourhoods, .. } = &self.nearby;
-        let Pending { found, waiting, now, outcomes, rounds, due, struck, .. } = &self.pending;
+        let Pending { found, waiting, now, outcomes, rounds, queue, struck, .. } = &self.pending;
         let found: usize = found.iter().map(Vec::capacity).sum();
         self.state.bytes()
             + broadphase.bytes()
             + candidates.bytes()
             + neighbourhoods.bytes()
             + rounds.bytes()
+            + queue.bytes()
             + struck.bytes()
             + size_of::<Contact<T>>() * (found + waiting.capacity() + now.capacity())
             + size_of::<Outcome<T>>() * outcomes.capacity()
-            + size_of::<Due<T>>() * due.capacity()
     }
 }
