@@ -59,8 +59,8 @@ const GOLDEN: &[Entry] = &[
         || engine::<f64>("rough-gas", Impact::EndOfStep),
         0x48ec_c486_2f7e_02fb,
     ),
-    ("mixture, sub-step f32", || engine::<f32>("mixture", Impact::SubStep), 0x8869_3b8a_33c8_76e3),
-    ("mixture, sub-step f64", || engine::<f64>("mixture", Impact::SubStep), 0xa86f_9986_2da8_174a),
+    ("mixture, sub-step f32", || engine::<f32>("mixture", Impact::SubStep), 0x1a21_d92d_841a_05c8),
+    ("mixture, sub-step f64", || engine::<f64>("mixture", Impact::SubStep), 0x67c0_0596_26f0_22cf),
     (
         "fluid, sub-step f32",
         || engine::<f32>("hard-sphere-fluid", Impact::SubStep),

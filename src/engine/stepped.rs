@@ -2,7 +2,8 @@
 //!
 //! A step is: fly (`fly`), renew the candidates if bodies have moved far enough
 //! (`candidates`), find the contacts (`find`, `narrow`), let them take effect in
-//! the scene's order (`resolve`, `impact`, `apply`).
+//! the scene's order (`impact`, `apply`): those at the end of the step round by
+//! round (`resolve`), those inside it one after the other (`in_order`).
 
 mod apply;
 mod candidates;
@@ -12,10 +13,13 @@ mod driver;
 mod find;
 mod fly;
 mod impact;
+mod in_order;
 mod lanes;
 mod narrow;
+mod neighbourhoods;
 mod orientations;
 mod path;
+mod queue;
 mod record;
 mod region;
 mod resolve;

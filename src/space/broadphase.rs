@@ -20,7 +20,7 @@ pub use candidates::{Candidates, Chunk, Pair};
 use candidates::{FEW_PARTS, Search, SearchedGrid, shell_ends};
 use grid::Grid;
 use order::CellOrder;
-use skin::best_skin;
+use skin::{best_skin, neighbours};
 
 use crate::bodies::{Columns3, Figure, PerBody, Same, at};
 use crate::lane::Lane;
@@ -35,9 +35,11 @@ use crate::workers::Workers;
 const FIRST_DENSITY: f64 = 0.2;
 const FIRST_SKIN: f64 = 0.5;
 
-/// The widest skin for what may have met within a step, in mean diameters, and
-/// how many bodies do not need it: that few can all be candidates of each other.
-const MOST_SWEPT: f64 = 4.0;
+/// The widest skin for what may have met within a step: as many neighbours as a
+/// body may have in it, but no less than so many mean diameters; and how many
+/// bodies do not need it: that few can all be candidates of each other.
+const MOST_NEIGHBOURS: f64 = 128.0;
+const LEAST_SWEPT: f64 = 4.0;
 const FEW: usize = 256;
 
 /// Bodies whose cells are found as one piece of work.
@@ -128,16 +130,37 @@ impl<T: Real> BroadPhase<T> {
         self.farthest * T::EPSILON
     }
 
-    /// The skin that finds all pairs that can have met within a step. Among many
-    /// bodies, those so fast that it would span many diameters may miss each
-    /// other.
+    /// The skin that finds all pairs that can have met while bodies moved this way
+    /// at most, length; complete up to the [longest](Self::longest_way) one.
     #[must_use]
-    pub fn swept(&self, travel: T) -> T {
-        let swept = travel * T::ratio(9, 4);
-        if self.len <= FEW {
-            return swept;
+    pub fn swept(&self, way: T) -> T {
+        let swept = way * T::ratio(9, 4);
+        if self.len <= FEW { swept } else { swept.lesser(self.most_swept()) }
+    }
+
+    /// The longest way of bodies, length, for which one search can find all that
+    /// they may have met; `None` if any.
+    #[must_use]
+    pub fn longest_way(&self, pairs: bool) -> Option<T> {
+        let is_any = self.len <= FEW || !(pairs || self.has_many_parts());
+        (!is_any).then(|| self.most_swept() * T::ratio(4, 9))
+    }
+
+    /// The widest skin for what may have met, length.
+    fn most_swept(&self) -> T {
+        let mut swept = LEAST_SWEPT;
+        if let Some(density) = self.density {
+            while neighbours(density, 1.25 * swept) < MOST_NEIGHBOURS && swept < 1e6 {
+                swept *= 1.25;
+            }
         }
-        swept.lesser(T::from_f64(self.mean_diameter * MOST_SWEPT))
+        T::from_f64(self.mean_diameter * swept)
+    }
+
+    /// The greatest radius of all bodies, length.
+    #[must_use]
+    pub fn greatest_radius(&self) -> T {
+        self.reaches.first().copied().unwrap_or(T::ZERO)
     }
 
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the
@@ -237,11 +260,10 @@ impl<T: Real> BroadPhase<T> {
         }
         let at_parts = if self.has_many_parts() { candidates.at_parts_count() } else { 0 };
         if surveyed.pairs || at_parts > 0 {
-            let reach = 1.0 + skin.to_f64() / self.mean_diameter;
-            let neighbours = candidates.pair_count() + at_parts;
-            let neighbours = neighbours as f64 / surveyed.position[0].len() as f64;
-            let volume = 2.0 / 3.0 * core::f64::consts::PI * reach.powi(3);
-            self.density = Some(neighbours / volume);
+            let found = candidates.pair_count() + at_parts;
+            let found = found as f64 / surveyed.position[0].len() as f64;
+            let skin = skin.to_f64() / self.mean_diameter;
+            self.density = Some(found / neighbours(1.0, skin));
         }
     }
 

@@ -82,6 +82,15 @@ impl<T: Real> PeriodicBox<T> {
         PeriodicBox { lower: self.lower.cast(), upper: self.upper.cast() }
     }
 
+    /// Whether points are inside, farther than a margin from all faces.
+    #[inline(always)]
+    pub(crate) fn is_inner<L: Lane<Scalar = T>>(&self, point: Vec3<L>, margin: L) -> L::Mask {
+        let lower = point - Vec3::splat(self.lower);
+        let upper = Vec3::splat(self.upper) - point;
+        let nearest = lower.lesser(upper);
+        nearest.x.lesser(nearest.y).lesser(nearest.z).gt(margin)
+    }
+
     /// The lengths of its sides.
     #[must_use]
     pub fn sides(&self) -> Vec3<T> {

@@ -2,6 +2,7 @@
 //! exact cases, and its memory.
 
 mod exact;
+mod in_order;
 mod laws;
 mod reference;
 mod same_bits;

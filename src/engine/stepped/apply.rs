@@ -9,11 +9,11 @@ use super::state::{State, put};
 use crate::bodies::at;
 use crate::engine::account::Account;
 use crate::engine::{Event, Partner};
+use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// Gives the bodies of a contact their new motion; returns by how much a body
-/// was moved within the step.
+/// Gives the bodies of a contact their new motion.
 pub(super) fn apply<T: Real>(
     setting: &Setting<T>,
     state: &mut State<T>,
@@ -21,7 +21,7 @@ pub(super) fn apply<T: Real>(
     account: &mut Account,
     (contact, outcome): (&Contact<T>, &Outcome<T>),
     record: Option<&mut Record<T>>,
-) -> T {
+) {
     let is_pair = contact.rank.is_pair();
     if is_pair {
         account.pair(outcome.normal, outcome.offset);
@@ -32,12 +32,10 @@ pub(super) fn apply<T: Real>(
         record.push(*contact, event(setting, state, clock, contact, outcome));
     }
     let (a, b) = (outcome.a, outcome.b);
-    let mut jump = give(setting, state, clock, contact, contact.a, a.velocity, a.spin);
+    give(setting, state, clock, contact, contact.a, a.velocity, a.spin);
     if is_pair {
-        let moved = give(setting, state, clock, contact, contact.b, b.velocity, b.spin);
-        jump = moved.greater(jump);
+        give(setting, state, clock, contact, contact.b, b.velocity, b.spin);
     }
-    jump
 }
 
 fn give<T: Real>(
@@ -48,22 +46,19 @@ fn give<T: Real>(
     slot: u32,
     velocity: Vec3<T>,
     spin: Vec3<T>,
-) -> T {
+) {
     let slot = slot as usize;
     if setting.plan.changes_spins {
         let index = state.index[slot] as usize;
         state.catch_up(index, clock.steps, setting.dt, contact.ago);
         put(&mut state.spin, index, spin);
     }
-    let mut jump = T::ZERO;
     if setting.is_within_step() {
         // Forward again from the contact with the new velocity.
         let change = (velocity - at(&state.velocity, slot)) * contact.ago;
         state.shift(slot, change, setting.periodic);
-        jump = change.length() * T::ratio(65, 64);
     }
     state.set_velocity(slot, velocity);
-    jump
 }
 
 /// The event of a contact, before the bodies receive their new motion.
@@ -78,6 +73,7 @@ fn event<T: Real>(
     let path = &setting.path;
     let before = path.end_velocity(at(&state.velocity, slot));
     let center = path.center(at(&state.position, slot), before, contact.ago);
+    let center = setting.periodic.map_or(center, |space| space.wrap(center));
     let length = outcome.offset.length();
     let normal = outcome.offset * (T::ONE / length);
     let at_contact = |velocity: Vec3<T>| path.velocity(path.end_velocity(velocity), contact.ago);

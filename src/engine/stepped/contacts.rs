@@ -1,10 +1,10 @@
 //! Contacts: those found in a step, and the order in which they take effect.
 //!
 //! The order depends on nothing but the scene: by the time of contact, then by
-//! the bodies' indices. A contact may take effect as soon as it is the first
-//! one left for both of its bodies, so a round takes all that are; they share no
-//! body and can be worked on side by side, and the result is that of the
-//! sequential order.
+//! the bodies' indices. At the end of a step, where all contacts have one time and
+//! no body moves, a contact may take effect as soon as it is the first one left
+//! for both of its bodies, so a round takes all that are; they share no body and
+//! can be worked on side by side, and the result is that of the sequential order.
 
 use core::cmp::Ordering;
 
@@ -31,6 +31,9 @@ pub(super) struct Rank(u64);
 const IS_BODY: u64 = 1 << 31;
 
 impl Rank {
+    /// Of no contact at all.
+    pub const NONE: Self = Self(u64::MAX);
+
     /// Of a contact between the bodies with two different indices.
     #[inline]
     pub fn of_pair(first: u32, second: u32) -> Self {
@@ -52,6 +55,13 @@ impl Rank {
 }
 
 impl<T: Real> Contact<T> {
+    /// The slots of its bodies, one or two.
+    #[inline]
+    pub fn bodies(&self) -> impl Iterator<Item = u32> {
+        let second = self.rank.is_pair().then_some(self.b);
+        core::iter::once(self.a).chain(second)
+    }
+
     /// Earlier contacts first, those of one time by rank.
     pub fn order(&self, other: &Self) -> Ordering {
         let later = other.ago.partial_cmp(&self.ago).unwrap_or(Ordering::Equal);
@@ -64,14 +74,12 @@ impl<T: Real> Contact<T> {
 pub(super) struct Rounds {
     /// The round in which a body, by slot, was last blocked.
     blocked: Vec<u32>,
-    /// The round in which a body, by slot, last took part.
-    struck: Vec<u32>,
     round: u32,
 }
 
 impl Rounds {
     pub fn new(len: usize) -> Self {
-        Self { blocked: vec![0; len], struck: vec![0; len], round: 0 }
+        Self { blocked: vec![0; len], round: 0 }
     }
 
     /// Moves the contacts that come first for all their bodies from `waiting`,
@@ -90,23 +98,15 @@ impl Rounds {
             self.blocked[a] = round;
             self.blocked[b] = round;
             if is_first {
-                self.struck[a] = round;
-                self.struck[b] = round;
                 now.push(*contact);
             }
             !is_first
         });
     }
 
-    /// Whether the body at a slot took part in the round just taken.
-    #[inline]
-    pub fn is_struck(&self, slot: u32) -> bool {
-        self.struck[slot as usize] == self.round
-    }
-
     /// The bytes of the marks.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.blocked.as_slice()) + size_of_val(self.struck.as_slice())
+        size_of_val(self.blocked.as_slice())
     }
 }
 

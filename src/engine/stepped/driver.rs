@@ -4,6 +4,7 @@ use super::candidates::renew;
 use super::clock::Clock;
 use super::find::find_contacts;
 use super::fly::{fly, rotate};
+use super::in_order::collide_in_order;
 use super::lanes::in_lanes;
 use super::record::Record;
 use super::region::Region;
@@ -92,11 +93,14 @@ fn take_step<T: Real>(
     }
     let nearby = &mut region.nearby;
     nearby.travelled = nearby.travelled + travel + nearby.broadphase.rounding();
-    let is_valid = (nearby.travelled + nearby.travelled).lt(nearby.skin);
-    if clock.steps == 1 || !is_valid {
-        in_lanes!(gather setting.plan.gather_lanes, renew::<T>(setting, region, travel));
+    if setting.is_within_step() {
+        collide_in_order(setting, region, clock, account, record, travel);
+        return;
     }
-    find_contacts(setting, region, travel);
+    if clock.steps == 1 || !nearby.is_complete() {
+        in_lanes!(gather setting.plan.gather_lanes, renew::<T>(setting, region, travel, None));
+    }
+    find_contacts(setting, region);
     resolve(setting, region, clock, account, record);
 }
 

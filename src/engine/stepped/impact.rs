@@ -9,7 +9,7 @@ use crate::contact::{Impulse, Laws, Party, collide, one_material};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::space::Space;
-use crate::surroundings::Feature;
+use crate::surroundings::{Clearance, Feature};
 use crate::vec3::Vec3;
 
 /// The motion of a body just after a contact.
@@ -116,10 +116,15 @@ impl<S, W> Impacts<S, W> {
         let second = Slots::new(state, L::WIDTH, |k| contacts[k].b);
         let mut a = party::<L, T, W>(state, &first);
         let mut b = party::<L, T, W>(state, &second);
-        let mut offset = offset::<L, T, S>(state, self.space, &first.slots, &second.slots);
-        if self.within_step {
-            offset -= (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
-        }
+        let offset = if self.within_step {
+            // Of all images only the nearest at the time of contact can touch.
+            let offset = gather::<L>(&state.position, &first.slots)
+                - gather::<L>(&state.position, &second.slots);
+            let back = (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
+            offset - self.space.shift(self.space.turns(offset - back)) - back
+        } else {
+            offset::<L, T, S>(state, self.space, &first.slots, &second.slots)
+        };
         match &state.radius {
             PerBody::Same(_) => {
                 a.share = L::ratio(1, 2);
@@ -186,7 +191,7 @@ impl<S, W> Impacts<S, W> {
         if self.within_step {
             let ago = L::from_fn(|k| contacts[k].ago);
             let velocity = path.end_velocity(at_end);
-            center = path.center(center, velocity, ago);
+            center = self.space.wrap(path.center(center, velocity, ago));
             a.velocity = path.velocity(velocity, ago);
         }
         let at_contact = a.velocity;
@@ -194,7 +199,19 @@ impl<S, W> Impacts<S, W> {
             PerBody::Same(radius) => L::splat(*radius),
             PerBody::Each(radius) => L::gather(radius, &slots.slots),
         };
-        let arm = feature.clearance(center, radius).arm;
+        let Clearance { gap, mut arm } = feature.clearance(center, radius);
+        let is_beyond = gap.abs().gt(radius);
+        if self.within_step && is_beyond.any() {
+            // At the very edge of a periodic box rounding may have chosen the
+            // image at its other side.
+            let mut least = gap.abs();
+            for image in self.space.images() {
+                let other = feature.clearance(center + Vec3::splat(image), radius);
+                let is_nearer = is_beyond & other.gap.abs().lt(least);
+                least = L::select(is_nearer, other.gap.abs(), least);
+                arm = Vec3::select(is_nearer, other.arm, arm);
+            }
+        }
         let law = self.laws.between(one_material);
         let impulse = collide(law, arm, &mut a, &mut Party::immovable());
         if self.within_step {

@@ -1,14 +1,16 @@
 //! Narrow phase: which candidates touch within the step.
 
 use super::contacts::{Contact, Rank};
-use super::path::Path;
+use super::path::{Path, Stretch};
 use super::state::State;
-use crate::bodies::Figure;
+use super::struck::Struck;
+use crate::bodies::{Figure, at};
 use crate::contact::past_contact;
 use crate::lane::{Lane, Mask};
+use crate::motion::flight::Wrap;
 use crate::real::Real;
-use crate::space::Space;
 use crate::space::broadphase::Pair;
+use crate::space::{PeriodicBox, Space};
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -27,12 +29,13 @@ pub(super) trait Detection<T: Real>: Copy + Send + Sync {
         b: &[u32],
     ) -> (L::Mask, L);
 
-    /// Which of the bodies at these slots touch the feature, and how long ago.
+    /// Which of the bodies at these slots touch the numbered feature, and how long
+    /// ago.
     fn surroundings<L: Lane<Scalar = T>, R: Figure<T>>(
         self,
         state: &State<T>,
         radius: R,
-        feature: &Feature<T>,
+        feature: (u32, &Feature<T>),
         bodies: &[u32],
     ) -> (L::Mask, L);
 }
@@ -62,7 +65,7 @@ impl<T: Real> Detection<T> for AtEnd {
         self,
         state: &State<T>,
         radius: R,
-        feature: &Feature<T>,
+        (_, feature): (u32, &Feature<T>),
         bodies: &[u32],
     ) -> (L::Mask, L) {
         let center = gather::<L>(&state.position, bodies);
@@ -70,17 +73,25 @@ impl<T: Real> Detection<T> for AtEnd {
     }
 }
 
-/// At the time of impact inside the step, also where the bodies have passed
-/// through each other by its end.
+/// At the time of impact inside a stretch of the step, also where the bodies have
+/// passed through each other by its end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct WithinStep<T> {
+pub(super) struct WithinStep<'a, T: Real> {
     /// The shape of the paths within the step.
-    pub path: Path<T>,
-    /// How much nearer two bodies may have been during the step, length.
-    pub sweep: T,
+    pub path: &'a Path<T>,
+    /// The contacts that bodies have had in the step.
+    pub struck: &'a Struck<T>,
+    /// The part of the step that is looked at.
+    pub stretch: Stretch<T>,
+    pub periodic: Option<PeriodicBox<T>>,
+    /// Which images of a pair can be near, besides the nearest at the end of the
+    /// stretch, in whole boxes from there.
+    pub further: &'a [Vec3<T>],
+    /// Whether to pass over the image of a pair that touches at the beginning.
+    pub is_again: bool,
 }
 
-impl<T: Real> Detection<T> for WithinStep<T> {
+impl<T: Real> Detection<T> for WithinStep<'_, T> {
     #[inline(always)]
     fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
         self,
@@ -90,22 +101,40 @@ impl<T: Real> Detection<T> for WithinStep<T> {
         a: &[u32],
         b: &[u32],
     ) -> (L::Mask, L) {
-        let offset = offset::<L, _, _>(state, space, a, b);
-        let distance_squared = offset.length_squared();
+        let Stretch { until, .. } = self.stretch;
+        let way = self.stretch.way();
         let reach = radius.gather::<L>(a) + radius.gather::<L>(b);
-        let swept = reach + L::splat(self.sweep);
-        let is_near = distance_squared.le(swept * swept);
-        if !is_near.any() {
-            return (is_near, L::ZERO);
+        let swept = reach + L::splat(way + way);
+        let offset = gather::<L>(&state.position, a) - gather::<L>(&state.position, b);
+        let relative = || gather::<L>(&state.velocity, a) - gather::<L>(&state.velocity, b);
+        let back = if until > T::ZERO { relative() * L::splat(until) } else { Vec3::ZERO };
+        let turns = space.turns(offset - back);
+        let mut touching = L::ZERO.lt(L::ZERO);
+        let mut first = L::ZERO;
+        for &further in self.further {
+            let offset = offset - space.shift(turns + Vec3::splat(further));
+            let is_near = (offset - back).length_squared().le(swept * swept);
+            if !is_near.any() {
+                continue;
+            }
+            let relative = relative();
+            let since = self.since::<L>(a, b);
+            let contact = past_contact(offset, relative, reach);
+            // What touches at the beginning of its path, by whatever rounding or an
+            // earlier step has left, collides then if it approaches.
+            let is_before = contact.ago.gt(since);
+            let start = offset - relative * since;
+            let mut met = contact.met & (!is_before | relative.dot(start).lt(L::ZERO));
+            if self.is_again {
+                let gap = start.length_squared() - reach * reach;
+                met = met & gap.gt(reach * reach * L::ratio(1, 1024));
+            }
+            let ago = L::select(is_before, since, contact.ago);
+            met = met & ago.ge(L::splat(until)) & (!touching | ago.gt(first));
+            first = L::select(met, ago, first);
+            touching = touching | met;
         }
-        let relative = gather::<L>(&state.velocity, a) - gather::<L>(&state.velocity, b);
-        let contact = past_contact(offset, relative, reach);
-        let duration = L::splat(self.path.duration);
-        let met_within = contact.met & contact.ago.ge(L::ZERO) & contact.ago.le(duration);
-        // What an earlier step has left overlapping, or touching to rounding,
-        // collides at the beginning of this one if it still approaches.
-        let is_left_over = distance_squared.le(reach * reach) & relative.dot(offset).lt(L::ZERO);
-        (met_within | is_left_over, L::select(met_within, contact.ago, duration))
+        (touching, first)
     }
 
     #[inline(always)]
@@ -113,20 +142,80 @@ impl<T: Real> Detection<T> for WithinStep<T> {
         self,
         state: &State<T>,
         radius: R,
-        feature: &Feature<T>,
+        (number, feature): (u32, &Feature<T>),
         bodies: &[u32],
     ) -> (L::Mask, L) {
-        let center = gather::<L>(&state.position, bodies);
-        let radius = radius.gather::<L>(bodies);
-        let clearance = feature.clearance(center, radius);
-        let is_inside = clearance.gap.le(L::ZERO);
-        if !is_inside.any() {
-            return (is_inside, L::ZERO);
-        }
+        let Stretch { until, .. } = self.stretch;
+        let way = L::splat(self.stretch.way());
         let velocity = self.path.end_velocity(gather::<L>(&state.velocity, bodies));
-        let is_approaching = velocity.dot(clearance.arm).lt(L::ZERO);
-        let ago = self.path.touch(feature, center, velocity, radius);
-        (is_inside & is_approaching, ago)
+        let end = gather::<L>(&state.position, bodies);
+        let mut center = self.path.center(end, velocity, L::splat(until));
+        let mut is_near = L::ZERO.lt(L::ZERO);
+        if let Some(space) = self.periodic {
+            // From beyond a face of the box it may meet another image.
+            center = space.wrap(center);
+            is_near = !space.is_inner(center, way);
+        }
+        is_near = is_near | feature.clearance(center, radius.gather::<L>(bodies)).gap.le(way);
+        if !is_near.any() {
+            return (is_near, L::ZERO);
+        }
+        let near = is_near.bits();
+        let ago = L::from_fn(|k| {
+            let contact = (near >> k & 1 != 0).then(|| {
+                let radius = radius.gather::<T>(&bodies[k..=k]);
+                self.contact_with(state, radius, (number, feature), bodies[k])
+            });
+            contact.flatten().unwrap_or(-T::ONE)
+        });
+        (ago.ge(L::splat(until)), ago)
+    }
+}
+
+impl<T: Real> WithinStep<'_, T> {
+    /// Since when the bodies of pairs have had both of their paths.
+    #[inline(always)]
+    fn since<L: Lane<Scalar = T>>(&self, a: &[u32], b: &[u32]) -> L {
+        if self.struck.is_empty() {
+            return L::splat(self.path.duration);
+        }
+        L::gather(self.struck.since(), a).lesser(L::gather(self.struck.since(), b))
+    }
+
+    /// How long before the end of the step the body in a slot touches a feature.
+    #[inline(never)]
+    fn contact_with(
+        &self,
+        state: &State<T>,
+        radius: T,
+        (number, feature): (u32, &Feature<T>),
+        slot: u32,
+    ) -> Option<T> {
+        let Self { path, stretch: Stretch { until, .. }, .. } = *self;
+        let end = at(&state.position, slot as usize);
+        let velocity = path.end_velocity(at(&state.velocity, slot as usize));
+        let since = self.struck.since()[slot as usize];
+        let rank = Rank::of_surroundings(state.index[slot as usize], number);
+        let is_last = self.struck.is_last(slot, rank);
+        let Some(space) = self.periodic else {
+            return path.contact(feature, (end, velocity), radius, since, is_last);
+        };
+        let center = path.center(end, velocity, until);
+        let turns = space.turns(center - space.wrap(center));
+        let way = self.stretch.way();
+        let through = |image: Vec3<T>| {
+            let end = end - space.shift(turns - space.turns(image));
+            let gap = |ago: T| feature.clearance(path.center(end, velocity, ago), radius).gap;
+            if gap(until) > way {
+                return None;
+            }
+            // It has left one image only.
+            let rounding = T::whole(64) * T::EPSILON * end.length();
+            let is_leaving =
+                is_last && gap(since).abs() <= rounding.greater(radius / T::whole(1024));
+            path.contact(feature, (end, velocity), radius, since, is_leaving)
+        };
+        space.images().into_iter().filter_map(through).reduce(Lane::greater)
     }
 }
 
@@ -210,7 +299,8 @@ fn sweep_surroundings<L, T, D, R>(
     R: Figure<T>,
 {
     for bodies in bodies.chunks_exact(L::WIDTH) {
-        let (touching, ago) = detection.surroundings::<L, R>(state, radius, feature, bodies);
+        let (touching, ago) =
+            detection.surroundings::<L, R>(state, radius, (number, feature), bodies);
         push(touching, ago, found, |k| {
             (bodies[k], number, Rank::of_surroundings(state.index[bodies[k] as usize], number))
         });

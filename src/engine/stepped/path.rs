@@ -1,6 +1,6 @@
 //! Path: where a body was within the step that has just been taken.
 
-use crate::lane::{Lane, Mask};
+use crate::lane::Lane;
 use crate::motion::Integrator;
 use crate::real::Real;
 use crate::scene::Impact;
@@ -17,11 +17,25 @@ pub(super) struct Path<T> {
     lag: Vec3<T>,
     /// The path's acceleration.
     bend: Vec3<T>,
+    /// Whether that is not zero.
+    is_bent: bool,
 }
 
-/// Steps of Newton's method; each doubles the digits, and a path that only
-/// grazes a curved feature halves its error.
-const MOST_NEWTON_STEPS: usize = 12;
+/// A part of the step in which no body moves faster than a certain speed, both
+/// ends by their times before the end of the step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<T> {
+    pub from: T,
+    pub until: T,
+    pub fastest: T,
+}
+
+impl<T: Real> Stretch<T> {
+    /// How far a body moves in it at most, length.
+    pub fn way(&self) -> T {
+        self.fastest * (self.from - self.until)
+    }
+}
 
 impl<T: Real> Path<T> {
     /// The paths of steps of a length. Contacts at the end of a step have no
@@ -33,7 +47,8 @@ impl<T: Real> Path<T> {
             (_, Integrator::ExplicitEuler) => (acceleration * duration, still),
             (_, Integrator::VelocityVerlet) => (still, acceleration),
         };
-        Self { duration, lag, bend }
+        let is_bent = bend.to_array().iter().any(|&component| component != T::ZERO);
+        Self { duration, lag, bend, is_bent }
     }
 
     /// The path's velocity at the end of the step.
@@ -55,36 +70,28 @@ impl<T: Real> Path<T> {
         end - velocity * ago + Vec3::splat(self.bend) * (half * ago * ago)
     }
 
-    /// How long ago spheres that are inside a feature at the end of the step
-    /// touched it; 0 where they were inside at its beginning already.
+    /// How long before the end of the step a sphere first touches a feature, on
+    /// the path that it has had since a time before the end; None if it does not
+    /// within the step.
     ///
-    /// Newton's method on the gap along the path, for any feature. From inside
-    /// a flat one it comes nearer from one side only.
-    #[inline(never)]
-    pub fn touch<L: Lane<Scalar = T>>(
+    /// What touches the feature at the start of its path and approaches touches
+    /// it then, whatever rounding says. `is_leaving`: as
+    /// [`Feature::contact_time`] has it.
+    pub fn contact(
         &self,
         feature: &Feature<T>,
-        end: Vec3<L>,
-        end_velocity: Vec3<L>,
-        radius: L,
-    ) -> L {
-        let duration = L::splat(self.duration);
-        let mut ago = L::ZERO;
-        for _ in 0..MOST_NEWTON_STEPS {
-            let center = self.center(end, end_velocity, ago);
-            let clearance = feature.clearance(center, radius);
-            let approach =
-                self.velocity(end_velocity, ago).dot(clearance.arm) / clearance.arm.length();
-            let next = ago + clearance.gap / approach;
-            let is_valid = next.ge(L::ZERO) & next.le(duration);
-            let next = L::select(is_valid, next, L::select(next.gt(duration), duration, L::ZERO));
-            let is_settled = next.same(ago);
-            ago = next;
-            if is_settled.all() {
-                break;
-            }
-        }
-        let start = feature.clearance(self.center(end, end_velocity, duration), radius);
-        L::select(start.gap.lt(L::ZERO), L::ZERO, ago)
+        (end, end_velocity): (Vec3<T>, Vec3<T>),
+        radius: T,
+        since: T,
+        is_leaving: bool,
+    ) -> Option<T> {
+        let center = self.center(end, end_velocity, since);
+        let velocity = self.velocity(end_velocity, since);
+        let acceleration = self.is_bent.then_some(self.bend);
+        let wait = feature.contact_time(center, velocity, acceleration, radius, is_leaving)?;
+        // One that comes back within the rounding of time rests there, and would
+        // come back without end: it waits for the next step.
+        let is_at_rest = is_leaving && wait <= self.duration * T::EPSILON * T::whole(256);
+        (wait <= since && !is_at_rest).then(|| since - wait)
     }
 }

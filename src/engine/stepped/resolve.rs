@@ -1,9 +1,8 @@
-//! Resolve: the contacts of a step take effect, round by round.
+//! Resolve: the contacts at the end of a step take effect, round by round.
 
 use super::apply::apply;
 use super::clock::Clock;
 use super::contacts::Contact;
-use super::find::find_again;
 use super::impact::{Impacts, Outcome};
 use super::lanes::in_lanes;
 use super::record::Record;
@@ -44,24 +43,12 @@ pub(super) fn resolve<T: Real>(
         pending.outcomes.clear();
         pending.outcomes.resize(pending.now.len(), Outcome::NONE);
         impulses(setting, state, &pending.now, &mut pending.outcomes);
-        let mut jump = T::ZERO;
-        for (contact, outcome) in pending.now.iter().zip(&pending.outcomes) {
-            if outcome.collided {
-                let collision = (contact, outcome);
-                jump = apply(setting, state, clock, account, collision, record.as_deref_mut())
-                    .greater(jump);
+        for collision in pending.now.iter().zip(&pending.outcomes) {
+            if collision.1.collided {
+                apply(setting, state, clock, account, collision, record.as_deref_mut());
             }
-            if setting.is_within_step() {
-                // A graze that rounding turned away must not be found again either.
-                pending.struck.strike(contact);
-            }
-        }
-        region.nearby.travelled = region.nearby.travelled + jump;
-        if setting.is_within_step() {
-            find_again(setting, region);
         }
     }
-    region.pending.struck.clear();
 }
 
 /// Works out the impulses of contacts that share no body.
@@ -86,7 +73,8 @@ fn impulses<T: Real>(
     });
 }
 
-fn impulses_of_kind<L: Lane<Scalar = T>, T: Real>(
+/// Works out the impulses of contacts of one kind that share no body.
+pub(super) fn impulses_of_kind<L: Lane<Scalar = T>, T: Real>(
     setting: &Setting<T>,
     state: &State<T>,
     contacts: &[Contact<T>],

@@ -48,7 +48,8 @@ pub struct Chunk {
 }
 
 impl Chunk {
-    fn clear(&mut self) {
+    /// Empties the lists.
+    pub fn clear(&mut self) {
         self.pairs.iter_mut().for_each(Vec::clear);
         self.at_parts.clear();
         self.parts.clear();
@@ -64,18 +65,22 @@ impl Chunk {
         })
     }
 
-    /// Those of the candidates that the bodies take part in for which `is_kept`.
-    #[must_use]
-    pub fn of(&self, is_kept: impl Fn(u32) -> bool) -> Self {
-        let mut kept = Self::default();
-        for (kept, pairs) in kept.pairs.iter_mut().zip(&self.pairs) {
-            kept.extend(pairs.iter().filter(|&&[a, b]| is_kept(a) || is_kept(b)));
-        }
-        for (part, bodies) in self.at_parts() {
-            kept.at_parts.extend(bodies.iter().filter(|&&body| is_kept(body)));
-            kept.end_part(part);
-        }
-        kept
+    /// Adds a pair that may touch at once.
+    pub fn add_pair(&mut self, pair: Pair) {
+        self.pairs[0].push(pair);
+    }
+
+    /// Adds a body that may touch a fixed part.
+    pub fn add_at_part(&mut self, part: u32, body: u32) {
+        self.at_parts.push(body);
+        self.end_part(part);
+    }
+
+    /// Fills the pairs that may touch at once up to a multiple of `width`, with one
+    /// that never does.
+    pub fn fill_up(&mut self, width: usize, pair: Pair) {
+        let whole = self.pairs[0].len().next_multiple_of(width);
+        self.pairs[0].resize(whole, pair);
     }
 
     /// Ends the bodies of a part.

@@ -10,13 +10,19 @@ const SEARCH: f64 = 30.0;
 const SEARCH_PER_NEIGHBOUR: f64 = 5.0;
 const TEST_PER_NEIGHBOUR: f64 = 1.5;
 
+/// How many pairs each body is in, each counted once, whose gaps are below the
+/// skin, in diameters, at a density of so many bodies a diameter cubed.
+pub(super) fn neighbours(density: f64, skin: f64) -> f64 {
+    density * (2.0 / 3.0 * core::f64::consts::PI * (1.0 + skin).powi(3))
+}
+
 /// The skin, in diameters, of the least cost a step.
 ///
 /// `travel` is how far a body moves towards another in a step at most, in
 /// diameters; `density` the number of bodies a diameter cubed.
 pub(super) fn best_skin(travel: f64, density: f64) -> f64 {
     let cost = |skin: f64| {
-        let neighbours = 2.0 / 3.0 * core::f64::consts::PI * density * (1.0 + skin).powi(3);
+        let neighbours = neighbours(density, skin);
         let steps = (skin / (2.0 * travel)).floor().max(1.0);
         (SEARCH + SEARCH_PER_NEIGHBOUR * neighbours) / steps + TEST_PER_NEIGHBOUR * neighbours
     };
