@@ -34,7 +34,7 @@ fn end(status: i32) {
 pub fn watch() {
     use nix::sys::signal::{SigSet, Signal};
     let mut waited_for = SigSet::empty();
-    for signal in [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP] {
+    for signal in [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP, Signal::SIGXCPU] {
         // A script's shell lets its background jobs ignore Ctrl-C, which goes to all of
         // a terminal; one that is sent to this process alone is meant.
         if signal == Signal::SIGINT || !is_ignored(signal as u32) {

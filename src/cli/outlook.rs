@@ -18,6 +18,10 @@ const LEAST: f64 = 5e-11;
 /// A run that takes longer is refused, years.
 const MOST_YEARS: f64 = 10.0;
 
+/// The longest run of the event-driven engine, time: a million of its longest
+/// periods.
+const LONGEST: f64 = 1e30;
+
 const YEAR: f64 = 3.156e7;
 
 /// Refuses a run that no machine would bring to its end, or whose end f64 could
@@ -43,6 +47,14 @@ pub fn check<T: Real>(
             }
         }
         _ => {
+            if duration > LONGEST {
+                return Err(Failure::Argument(format!(
+                    "{}: the duration {duration:?} is longer than the {LONGEST:e} that the \
+                     event-driven engine can count; take a shorter one (--duration), or a larger \
+                     unit of time",
+                    scene.name
+                )));
+            }
             let crossings = crossings(scene, duration);
             if crossings > MOST_STEPS {
                 return Err(Failure::Argument(format!(

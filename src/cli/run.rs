@@ -48,7 +48,7 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
         )));
     }
     standard_output()?;
-    let mut doubt = unresolved(&scene.bodies, duration);
+    let doubt = unresolved(&scene.bodies, duration);
     let mut setup = Setup::of(&scene);
     let gas = scene.periodic.and_then(|_| Temperature::of(&scene.bodies));
     let gas = gas.map(|temperature| (temperature, scene.surface));
@@ -61,9 +61,6 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let outputs = Outputs::open(arguments)?;
     drop(setting_up);
     let setup_seconds = start.elapsed().as_secs_f64();
-    if let Some(doubt) = &doubt {
-        warn(doubt);
-    }
 
     let events = journey
         .travel(&mut world, outputs.events)
@@ -91,11 +88,8 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
         let what = format!("the {what} of the summary is no finite number");
         return Err(Failure::NotFinite { time, what, engine });
     }
-    if doubt.is_none() {
-        doubt = unresolved(&bodies, time);
-        if let Some(doubt) = &doubt {
-            warn(doubt);
-        }
+    if let Some(doubt) = doubt.or_else(|| unresolved(&bodies, time)) {
+        warn(&doubt);
     }
     let state = outputs.state.map(|file| written(file, &bodies)).transpose()?;
     // Both are whole before either gets its name.

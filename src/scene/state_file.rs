@@ -2,7 +2,8 @@
 //! them.
 
 use std::fs::File;
-use std::path::Path;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, ReaderBuilder};
 
@@ -34,6 +35,7 @@ const SHOWN: usize = 40;
 /// A file of comma-separated values whose header is read.
 #[derive(Debug)]
 pub(super) struct StateFile {
+    path: PathBuf,
     /// What messages call it.
     name: String,
     reader: csv::Reader<File>,
@@ -81,6 +83,7 @@ impl StateFile {
             orientation: columns.all_or_none(ORIENTATION)?,
             radius: columns.all_or_none(RADIUS)?.map(first),
             mass: columns.all_or_none(MASS)?.map(first),
+            path: path.into(),
             name: name.clone(),
             reader,
         };
@@ -144,9 +147,28 @@ impl StateFile {
 
     /// A mistake in a line.
     fn mistake(&self, record: &ByteRecord, key: &str, problem: Problem) -> SceneError {
-        let line = record.position().map(|position| position.line() as usize);
+        let line = record.position().map(|position| {
+            let blank = blank_lines(&self.path, position.byte()).unwrap_or(0);
+            position.line() as usize + blank
+        });
         mistake(&self.name, line, key, problem)
     }
+}
+
+/// How many blank lines a file has from a byte on: the reader counts them to the
+/// record behind them.
+fn blank_lines(path: &Path, start: u64) -> io::Result<usize> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::Start(start))?;
+    let mut lines = 0;
+    for byte in BufReader::new(file).bytes() {
+        match byte? {
+            b'\n' => lines += 1,
+            b'\r' => {}
+            _ => break,
+        }
+    }
+    Ok(lines)
 }
 
 fn column<T: Real>(values: Vec<T>) -> Column<T> {
