@@ -3,6 +3,7 @@
 
 use rayon::prelude::*;
 use serde::Deserialize;
+use toml::de::DeTable;
 
 use super::raw::{RawScene, RawSpheres};
 
@@ -35,10 +36,10 @@ fn in_pieces(text: &str) -> Option<RawScene> {
     let mut rest = String::with_capacity(first + text.len() - end);
     rest.push_str(&text[..first]);
     rest.push_str(&text[end..]);
-    let mut scene: RawScene = toml::from_str(&rest).ok()?;
-    if !scene.spheres.is_empty() {
+    if DeTable::parse(&rest).ok()?.get_ref().contains_key("spheres") {
         return None;
     }
+    let mut scene: RawScene = toml::from_str(&rest).ok()?;
     let pieces = starts.chunks(MANY).enumerate().map(|(piece, chunk)| {
         let next = starts.get((piece + 1) * MANY).copied();
         &text[chunk[0]..next.unwrap_or(end)]
