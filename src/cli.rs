@@ -1,12 +1,15 @@
 //! The command line, from the arguments to the exit status.
 
 mod arguments;
+mod closed_output;
 mod explain;
 mod failure;
 mod interrupt;
 mod journey;
+mod outlook;
 mod output_file;
 mod outputs;
+mod plain;
 mod progress;
 mod run;
 mod scene_argument;
@@ -21,9 +24,11 @@ use clap::Parser;
 
 use arguments::{Arguments, Command, RunArguments};
 use failure::Failure;
+use plain::{acts_on_terminals, plain};
 
 /// Runs the program.
 pub fn main() -> ExitCode {
+    interrupt::watch();
     let result = match Arguments::try_parse() {
         Ok(Arguments { command }) => match command {
             None => run::run(&RunArguments::default()),
@@ -42,6 +47,22 @@ pub fn main() -> ExitCode {
 
 /// Help, the version, or a mistake in the arguments.
 fn answered(answer: &clap::Error) -> ExitCode {
+    let given: Vec<_> =
+        std::env::args_os().map(|given| given.to_string_lossy().into_owned()).collect();
+    let is_plain =
+        !given.iter().any(|given| given.chars().any(acts_on_terminals) || given.len() > 200);
+    if answer.use_stderr() && !is_plain {
+        // Without colours, and each line on its own.
+        for line in answer.to_string().lines() {
+            let _ = writeln!(io::stderr(), "{}", plain(line));
+        }
+        return ExitCode::from(2);
+    }
+    if !answer.use_stderr()
+        && let Err(closed) = standard_output()
+    {
+        return failed(&closed);
+    }
     match answer.print().and_then(|()| io::stdout().flush()) {
         Ok(()) => ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(2)),
         Err(error) => failed(&Failure::Print(error)),
@@ -53,12 +74,18 @@ fn failed(failure: &Failure) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     // No message can be written when standard error is closed too.
-    let _ = writeln!(io::stderr(), "error: {failure}");
+    let _ = writeln!(io::stderr(), "error: {}", plain(&failure.to_string()));
     ExitCode::from(failure.exit_status())
+}
+
+/// Standard output, if there is one.
+fn standard_output() -> Result<io::Stdout, Failure> {
+    closed_output::open().map_err(Failure::Print)?;
+    Ok(io::stdout())
 }
 
 /// Prints to standard output, all of it.
 fn print(text: &str) -> Result<(), Failure> {
-    let mut output = io::stdout().lock();
+    let mut output = standard_output()?.lock();
     output.write_all(text.as_bytes()).and_then(|()| output.flush()).map_err(Failure::Print)
 }

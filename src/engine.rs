@@ -208,8 +208,8 @@ pub enum EngineError {
     /// Collisions follow each other while time stands still.
     #[error(
         "time stands still at {time:?}: {events} events in a row without progress, the last one of \
-         sphere {body}; a sphere that rests on something, or is wedged in, never stops colliding: \
-         give it room or speed, or run the scene with `--engine stepped`"
+         sphere {body}, which rests on something, slides along something hollow in ever smaller hops, \
+         or has no room"
     )]
     Stalled {
         /// Simulated time.

@@ -20,16 +20,22 @@
 //! ```
 
 mod energy;
+mod fall;
+mod finite;
 mod gas;
 mod momentum;
 mod of_world;
+mod standstill;
 #[cfg(feature = "files")]
 mod state_hash;
 mod totals;
 
-pub use energy::{Energy, integrator_drift};
+pub use energy::{Energy, energy_scale, integrator_drift};
+pub use fall::fall_energy;
+pub use finite::{NotFinite, Unresolved, not_finite, unresolved};
 pub use gas::{Temperature, collision_rate, compressibility};
 pub use momentum::{AngularMomentum, Momentum};
+pub use standstill::{Standstill, Touched};
 #[cfg(feature = "files")]
 pub use state_hash::{StateHash, state_hash};
 pub use totals::Totals;

@@ -1,13 +1,21 @@
 //! Output: what happens in a run, as files.
 //!
 //! Events and states become comma-separated values with all their digits, on
-//! anything that implements [`io::Write`].
+//! anything that implements [`io::Write`]. With the feature `study` there is a
+//! [`WholeFile`](whole_file::WholeFile) to write into, which has its name only
+//! once it is whole.
 
 mod events;
 mod state;
+#[cfg(feature = "study")]
+mod whole_file;
 
 pub use events::{EVENT_COLUMNS, EventWriter};
 pub use state::{STATE_COLUMNS, write_state};
+#[cfg(feature = "study")]
+pub(crate) use whole_file::{Listed, Temporary};
+#[cfg(feature = "study")]
+pub use whole_file::{WholeFile, abandon_unfinished, write_whole};
 
 use core::fmt::{self, Write as _};
 use std::io;

@@ -45,11 +45,17 @@ mod generate;
 mod lines;
 mod obstacles;
 mod origin;
+#[cfg(feature = "files")]
+mod pieces;
 mod random;
 #[cfg(feature = "files")]
 mod raw;
+#[cfg(feature = "files")]
+mod reading;
 mod settings;
 mod spheres;
+#[cfg(feature = "files")]
+mod state_file;
 
 pub use builder::SceneBuilder;
 #[cfg(feature = "files")]

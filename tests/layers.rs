@@ -82,7 +82,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 20] = [
+const SCENE: [&str; 23] = [
     "settings",
     "spheres",
     "random",
@@ -101,6 +101,9 @@ const SCENE: [&str; 20] = [
     "builder",
     "builtin",
     "raw",
+    "pieces",
+    "reading",
+    "state_file",
     "file",
     "dilated",
 ];

@@ -45,8 +45,10 @@ Examples:
   carom run gas.toml --events e.csv --threads 1  write down every collision
   carom run gas.toml --json | jq .energy         the summary for a program
 
+A scene takes spheres from a state file by spheres = { file = \"end.csv\" }.
 Lanes and threads change the time of a run, and no bit of its result.
-Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise;
+130, 143 or 129 if it is ended by Ctrl-C, TERM or HUP.")]
     Run(RunArguments),
     /// Print what the engine does for a scene, and what it skips.
     #[command(after_help = "\
@@ -74,8 +76,8 @@ Examples:
   carom study stability --quick          the stress suite in a minute
   carom study scaling rough-gas          time and memory against size and threads
 
-Each writes tables and pictures into a folder. An interrupted study goes on
-where it was when it is started again.")]
+Each writes tables and pictures into a folder, one study at a time. An
+interrupted study goes on where it was when it is started again.")]
     Study {
         #[command(subcommand)]
         study: Study,

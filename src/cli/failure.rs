@@ -3,6 +3,7 @@
 use std::io;
 
 use carom::engine::EngineError;
+use carom::observe::Standstill;
 use carom::scene::EngineKind;
 use carom::scene::SceneError;
 use carom::study::StudyError;
@@ -39,15 +40,32 @@ pub enum Failure {
     /// Standard output took no more.
     #[error("standard output could not be written: {0}")]
     Print(io::Error),
+    /// The event-driven engine does not get on.
+    #[error(
+        "time stands still at {time:?}: {events} events in a row without progress, the last one of \
+         sphere {body}; {why}"
+    )]
+    Stalled {
+        /// Simulated time.
+        time: f64,
+        /// Events since time last advanced.
+        events: u64,
+        /// A body that takes part.
+        body: u32,
+        /// How it stands, and what helps.
+        why: Standstill,
+    },
     /// The motion has left the numbers.
     #[error(
-        "at time {time:?} the state is no longer finite; nothing was written. {}--precision f64, or \
-         units in which lengths and speeds are nearer to 1, may keep it in range",
+        "at time {time:?} {what}; nothing was written. {}--precision f64, or units in which lengths, \
+         speeds and times are nearer to 1, may keep it in range",
         match engine { EngineKind::Stepped => "A smaller --dt, ", _ => "" }
     )]
     NotFinite {
         /// Simulated time.
         time: f64,
+        /// What is no longer finite, as a sentence.
+        what: String,
         /// The engine that moved it.
         engine: EngineKind,
     },
@@ -65,7 +83,11 @@ impl Failure {
                 | StudyError::NoFolder { .. } => 2,
                 _ => 1,
             },
-            Self::Engine(_) | Self::Write(_) | Self::Print(_) | Self::NotFinite { .. } => 1,
+            Self::Engine(_)
+            | Self::Stalled { .. }
+            | Self::Write(_)
+            | Self::Print(_)
+            | Self::NotFinite { .. } => 1,
         }
     }
 

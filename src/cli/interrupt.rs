@@ -1,23 +1,74 @@
-//! Interrupt: what Ctrl-C leaves behind.
+//! Interrupt: how the program ends when it is asked to, by Ctrl-C, by `kill`, or
+//! as its terminal goes away.
 
-use std::fs;
-use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
-/// What a shell reports for a program ended by Ctrl-C.
-const INTERRUPTED: i32 = 130;
+use carom::output::abandon_unfinished;
 
-/// Removes these temporary files if the program is interrupted or asked to end.
-/// Without any, the system ends the program as it ends any other.
-pub fn remove_on_interrupt(temporary: Vec<PathBuf>) {
-    if temporary.is_empty() {
+/// What is said when the program is asked to end.
+static LAST_WORDS: Mutex<Option<String>> = Mutex::new(None);
+
+/// Sets what is said when the program is asked to end.
+pub fn last_words(words: String) {
+    *LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner) = Some(words);
+}
+
+/// Ends the program, and leaves nothing half written.
+fn end(status: i32) {
+    abandon_unfinished(|| {
+        let words = LAST_WORDS.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(words) = &*words {
+            eprintln!("\n{}", super::plain(words));
+        }
+        std::process::exit(status);
+    });
+}
+
+/// From now on an interrupt ends the program with the status that a shell
+/// reports for it, 128 and the signal's number, and removes what is half
+/// written. A file that grows past its limit is an error of writing.
+///
+/// To be called before there is another thread. Without it a run is still
+/// right; an interrupt would only leave a `.carom-….tmp` behind.
+#[cfg(unix)]
+pub fn watch() {
+    use nix::sys::signal::{SigSet, Signal};
+    let mut waited_for = SigSet::empty();
+    for signal in [Signal::SIGINT, Signal::SIGTERM, Signal::SIGHUP, Signal::SIGXCPU] {
+        // A script's shell lets its background jobs ignore Ctrl-C, which goes to all of
+        // a terminal; one that is sent to this process alone is meant.
+        if signal == Signal::SIGINT || !is_ignored(signal as u32) {
+            waited_for.add(signal);
+        }
+    }
+    let mut blocked = waited_for;
+    blocked.add(Signal::SIGXFSZ);
+    if blocked.thread_block().is_err() {
         return;
     }
-    // Without a handler the run is still right; an interrupt would only leave
-    // a `.carom-….tmp` behind.
-    let _ = ctrlc::set_handler(move || {
-        for path in &temporary {
-            let _ = fs::remove_file(path);
+    let waiting = std::thread::Builder::new().name("signals".into()).spawn(move || {
+        while let Ok(signal) = waited_for.wait() {
+            end(128 + signal as i32);
         }
-        std::process::exit(INTERRUPTED);
     });
+    if waiting.is_err() {
+        // Signals end the program as they end any other, then.
+        let _ = waited_for.thread_unblock();
+    }
+}
+
+/// As above, with Ctrl-C only.
+#[cfg(not(unix))]
+pub fn watch() {
+    let _ = ctrlc::set_handler(|| end(130));
+}
+
+/// Whether the program was started so that a signal does nothing, as `nohup`
+/// does: it stays so.
+#[cfg(unix)]
+fn is_ignored(signal: u32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }

@@ -47,7 +47,7 @@ impl Journey {
         world: &mut World<T>,
         events: Option<OutputFile>,
     ) -> Result<Option<OutputFile>, Failure> {
-        let progress = Progress::new(self.course);
+        let mut progress = Progress::new(self.course);
         let mut events = events.map(Recorder::new).transpose()?;
         let mut stretch: u64 = 1;
         loop {
@@ -85,7 +85,7 @@ impl Journey {
     }
 
     /// Seconds that the engine, and writing its collisions, took.
-    pub fn wall_seconds(&self) -> f64 {
+    pub fn seconds(&self) -> f64 {
         self.busy.as_secs_f64()
     }
 

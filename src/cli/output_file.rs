@@ -4,7 +4,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile};
+use carom::output::WholeFile;
 use thiserror::Error;
 
 /// A file that cannot be written.
@@ -76,7 +76,7 @@ impl Destination {
                 Ok(metadata) if metadata.is_file() => {
                     return path.canonicalize().map(Self::Regular).map_err(|e| e.to_string());
                 }
-                Ok(_) => return Ok(Self::Special(path)),
+                Ok(metadata) => return special(path, &metadata),
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
                 Err(error) => return Err(error.to_string()),
             }
@@ -89,6 +89,30 @@ impl Destination {
         }
         Err("it leads over too many symbolic links".into())
     }
+}
+
+/// What is no file: a device that takes bytes one after the other, such as
+/// `/dev/null`, or a pipe that is open already, such as a shell's `>(gzip)`.
+#[cfg(unix)]
+fn special(path: PathBuf, metadata: &Metadata) -> Result<Destination, String> {
+    use std::os::unix::fs::FileTypeExt;
+    let kind = metadata.file_type();
+    // A pipe without a name has no path of its own that could be opened, and that
+    // would wait for a reader.
+    let is_open_pipe = kind.is_fifo() && path.canonicalize().is_err();
+    let what = match () {
+        () if kind.is_char_device() || is_open_pipe => return Ok(Destination::Special(path)),
+        () if kind.is_fifo() => "a named pipe, which waits for its reader",
+        () if kind.is_block_device() => "a disk",
+        () if kind.is_socket() => "a socket",
+        () => "no file",
+    };
+    Err(format!("it is {what}; give the path of a file, or - for standard output"))
+}
+
+#[cfg(not(unix))]
+fn special(path: PathBuf, _: &Metadata) -> Result<Destination, String> {
+    Ok(Destination::Special(path))
 }
 
 /// A regular file that is still to be made.
@@ -140,7 +164,7 @@ pub struct OutputFile {
 
 #[derive(Debug)]
 enum Output {
-    Beside { file: NamedTempFile, target: PathBuf },
+    Beside(WholeFile),
     Straight(File),
     Standard(io::Stdout),
 }
@@ -164,19 +188,10 @@ impl OutputFile {
                 Output::Straight(OpenOptions::new().write(true).open(device).map_err(failed)?)
             }
             Destination::Regular(target) => {
-                Output::Beside { file: beside(&target).map_err(failed)?, target }
+                Output::Beside(WholeFile::beside(&target).map_err(failed)?)
             }
         };
         Ok(Self { path: path.into(), output })
-    }
-
-    /// The temporary file that is to get the final name.
-    #[must_use]
-    pub fn temporary(&self) -> Option<&Path> {
-        match &self.output {
-            Output::Beside { file, .. } => Some(file.path()),
-            _ => None,
-        }
     }
 
     /// The path as it was given.
@@ -198,43 +213,18 @@ impl OutputFile {
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.flush().map_err(|source| self.error(source))?;
         match self.output {
-            Output::Beside { file, target } => match file.persist(target) {
-                Ok(_) => Ok(()),
-                Err(error) => Err(OutputError::Write { path: self.path, source: error.error }),
-            },
+            Output::Beside(file) => {
+                file.finish().map_err(|source| OutputError::Write { path: self.path, source })
+            }
             Output::Straight(_) | Output::Standard(_) => Ok(()),
         }
     }
 }
 
-/// A temporary file in the folder of `target`, with the permissions that
-/// `target` has, or would be made with.
-fn beside(target: &Path) -> io::Result<NamedTempFile> {
-    let existing = match OpenOptions::new().write(true).open(target) {
-        Ok(file) => Some(file.metadata()?.permissions()),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-        Err(error) => return Err(error),
-    };
-    let mut builder = Builder::new();
-    builder.prefix(".carom-").suffix(".tmp");
-    #[cfg(unix)]
-    let readable_by_others = {
-        use std::os::unix::fs::PermissionsExt;
-        fs::Permissions::from_mode(0o666)
-    };
-    #[cfg(unix)]
-    builder.permissions(readable_by_others);
-    let file = builder.tempfile_in(folder_of(target))?;
-    if let Some(permissions) = existing {
-        file.as_file().set_permissions(permissions)?;
-    }
-    Ok(file)
-}
-
 impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.output {
-            Output::Beside { file, .. } => file.as_file_mut().write(bytes),
+            Output::Beside(file) => file.write(bytes),
             Output::Straight(file) => file.write(bytes),
             Output::Standard(stdout) => stdout.write(bytes),
         }
@@ -242,7 +232,7 @@ impl Write for OutputFile {
 
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.output {
-            Output::Beside { file, .. } => file.as_file_mut().flush(),
+            Output::Beside(file) => file.flush(),
             Output::Straight(file) => file.flush(),
             Output::Standard(stdout) => stdout.flush(),
         }
@@ -329,7 +319,6 @@ mod tests {
     fn a_device_is_written_and_never_replaced() {
         let path = Path::new("/dev/full");
         let mut file = OutputFile::open(path).unwrap();
-        assert!(file.temporary().is_none());
         let error = file.write_all(b"x").unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::StorageFull);
         assert!(!fs::metadata(path).unwrap().is_file());

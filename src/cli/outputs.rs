@@ -1,10 +1,9 @@
 //! The files that a run writes, opened before it starts.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::arguments::RunArguments;
 use super::failure::Failure;
-use super::interrupt::remove_on_interrupt;
 use super::output_file::{Destination, OutputError, OutputFile};
 
 /// The files of a run.
@@ -46,18 +45,11 @@ impl Outputs {
                 _ => {}
             }
         }
-        let outputs = Self {
+        Ok(Self {
             events: open("--events", arguments.events.as_deref())?,
             state: open("--state", arguments.state.as_deref())?,
             take_standard_output: [events, state].contains(&Some(Destination::StandardOutput)),
-        };
-        remove_on_interrupt(outputs.temporary());
-        Ok(outputs)
-    }
-
-    fn temporary(&self) -> Vec<PathBuf> {
-        let files = [&self.events, &self.state].into_iter().flatten();
-        files.filter_map(OutputFile::temporary).map(Path::to_path_buf).collect()
+        })
     }
 }
 

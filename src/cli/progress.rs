@@ -1,7 +1,9 @@
 //! Progress: a bar on the terminal while a run goes on.
 
 use core::time::Duration;
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
+use std::sync::mpsc::{Sender, channel};
+use std::thread::{self, JoinHandle};
 
 use carom::engine::World;
 use carom::real::Real;
@@ -9,13 +11,23 @@ use carom::scene::EngineKind;
 use carom::study::Course;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
+use super::outlook::ahead;
+
 /// How finely the bar shows how far the run is.
 const GRAINS: f64 = 1e6;
 
-/// A bar on standard error, if that is a terminal.
+/// A run that takes longer than this is announced where there is no bar.
+const LONG: f64 = 60.0;
+
+/// What of a run is seen before it is announced.
+const SEEN: Duration = Duration::from_secs(2);
+
+/// A bar on standard error, if that is a terminal; else a line, once, about a long
+/// run.
 pub struct Progress {
     course: Course,
     bar: Option<ProgressBar>,
+    is_announced: bool,
 }
 
 impl Progress {
@@ -29,12 +41,15 @@ impl Progress {
             }
             bar
         });
-        Self { course, bar }
+        Self { course, bar, is_announced: false }
     }
 
     /// Shows how far the run is.
-    pub fn show<T: Real>(&self, world: &World<T>, busy: Duration) {
-        let Some(bar) = &self.bar else { return };
+    pub fn show<T: Real>(&mut self, world: &World<T>, busy: Duration) {
+        let Some(bar) = &self.bar else {
+            self.announce(world, busy);
+            return;
+        };
         let count = world.collisions().total();
         let (done, unit) = match world.plan().engine {
             EngineKind::Stepped => (world.steps(), "steps"),
@@ -55,10 +70,65 @@ impl Progress {
     }
 }
 
+impl Progress {
+    /// Says how long the run will take, by its beginning, if that is long.
+    fn announce<T: Real>(&mut self, world: &World<T>, busy: Duration) {
+        if self.is_announced || busy < SEEN {
+            return;
+        }
+        self.is_announced = true;
+        let left = busy.as_secs_f64() * (1.0 / self.course.done(world) - 1.0);
+        if left > LONG {
+            let shorter = match world.plan().engine {
+                EngineKind::Stepped => "a shorter --duration or a longer --dt makes",
+                _ => "a shorter --duration makes",
+            };
+            // A message that cannot be written ends no run.
+            let _ = writeln!(io::stderr(), "{}; {shorter} it shorter", ahead(left));
+        }
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// A line on the terminal while a scene is set up, once that takes a second.
+pub struct SettingUp {
+    shown: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl SettingUp {
+    /// Set-up begins.
+    pub fn new() -> Self {
+        let is_seen = io::stderr().is_terminal();
+        let shown = is_seen.then(|| {
+            let (done, is_done) = channel();
+            let show = move || {
+                if is_done.recv_timeout(Duration::from_secs(1)).is_err() {
+                    let bar = ProgressBar::new_spinner().with_message("setting up the scene");
+                    bar.enable_steady_tick(Duration::from_millis(200));
+                    // The end of set-up, by a word or by a failure.
+                    let _ = is_done.recv();
+                    bar.finish_and_clear();
+                }
+            };
+            Some((done, thread::Builder::new().name("setting-up".into()).spawn(show).ok()?))
+        });
+        Self { shown: shown.flatten() }
+    }
+}
+
+impl Drop for SettingUp {
+    fn drop(&mut self) {
+        if let Some((done, thread)) = self.shown.take() {
+            let _ = done.send(());
+            drop(done);
+            let _ = thread.join();
         }
     }
 }

@@ -7,12 +7,18 @@ use carom::scene::{DEFAULT_SCENE, EngineKind, SceneFile, builtin_scenes};
 
 use super::arguments::SceneArguments;
 use super::failure::Failure;
+use super::plain;
 
 /// Reads the scene that the arguments name.
 pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
     let mut file = match &arguments.scene {
         None => builtin(DEFAULT_SCENE)?,
-        Some(path) if is_path(path) => SceneFile::load(path)?,
+        Some(path) if is_path(path) => {
+            let mut file = SceneFile::load(path)?;
+            // It is printed in summaries and reports, and made from a file's name.
+            file.name = plain(&file.name);
+            file
+        }
         Some(name) => builtin(&name.to_string_lossy())?,
     };
     if let Some(engine) = arguments.engine {
@@ -36,7 +42,12 @@ pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
 fn is_path(argument: &Path) -> bool {
     let has_separator = argument.as_os_str().to_string_lossy().chars().any(std::path::is_separator);
     let is_toml = argument.extension().is_some_and(|ending| ending == "toml");
-    has_separator || is_toml || (argument.exists() && !argument.is_dir())
+    has_separator || is_toml || argument.is_file() || (argument.exists() && !is_builtin(argument))
+}
+
+/// Whether a built-in scene has that name.
+fn is_builtin(name: &Path) -> bool {
+    builtin_scenes().iter().any(|scene| name == Path::new(scene.name))
 }
 
 /// The built-in scene of that name.

@@ -91,8 +91,12 @@ pub struct Work {
     /// Mean translational temperature over the run; `None` for fewer than two
     /// bodies.
     pub mean_temperature: Option<f64>,
-    /// Wall time, seconds.
-    pub wall_seconds: f64,
+    /// The potential energy that bodies can fall through.
+    pub fall: f64,
+    /// Wall time before the engine ran, seconds.
+    pub setup_seconds: f64,
+    /// Wall time while it ran, seconds.
+    pub engine_seconds: f64,
 }
 
 /// The three kinds of energy.
@@ -114,7 +118,8 @@ pub struct EnergySummary {
     /// All of it at the end.
     #[serde(rename = "final")]
     pub end: f64,
-    /// `(final − initial) / |initial|`, see [`Energy::relative_change`].
+    /// `final − initial` over what the motion can exchange, see
+    /// [`Energy::relative_change`].
     pub relative_change: f64,
     /// The parts at the end.
     #[serde(flatten)]
@@ -187,11 +192,13 @@ pub struct Summary {
     pub mean_free_path: Option<f64>,
     /// Hash of the bits of the final state.
     pub state_hash: StateHash,
-    /// Wall time, seconds.
+    /// Wall time, seconds: set-up, the engine, and writing events.
     pub wall_seconds: f64,
-    /// Collisions of both kinds per second of wall time.
+    /// The set-up in it, seconds.
+    pub setup_seconds: f64,
+    /// Collisions of both kinds per second of the engine.
     pub collisions_per_second: f64,
-    /// Bodies × steps per second of wall time; 0 without steps.
+    /// Bodies × steps per second of the engine; 0 without steps.
     pub body_steps_per_second: f64,
 }
 
@@ -207,7 +214,9 @@ impl Work {
             virial: world.virial(),
             mean_free_path: world.mean_free_path(),
             mean_temperature: None,
-            wall_seconds: 0.0,
+            fall: 0.0,
+            setup_seconds: 0.0,
+            engine_seconds: 0.0,
         }
     }
 }
@@ -224,8 +233,9 @@ impl Summary {
         state_hash: StateHash,
         work: &Work,
     ) -> Self {
-        let Work { time, steps, collisions, wall_seconds, .. } = *work;
-        let per_second = |count: f64| if wall_seconds > 0.0 { count / wall_seconds } else { 0.0 };
+        let Work { time, steps, collisions, setup_seconds, engine_seconds, .. } = *work;
+        let is_timed = engine_seconds > 0.0;
+        let per_second = |count: f64| if is_timed { count / engine_seconds } else { 0.0 };
         let in_box = |figure: &dyn Fn() -> f64| setup.periodic.then(figure);
         Self {
             time,
@@ -245,11 +255,41 @@ impl Summary {
             collision_rate: in_box(&|| collision_rate(setup.bodies, collisions.pairs, time)),
             mean_free_path: work.mean_free_path,
             state_hash,
-            wall_seconds,
+            wall_seconds: setup_seconds + engine_seconds,
+            setup_seconds,
             collisions_per_second: per_second((collisions.pairs + collisions.surroundings) as f64),
             body_steps_per_second: per_second(setup.bodies as f64 * steps as f64),
             setup,
         }
+    }
+}
+
+impl Summary {
+    /// A figure that is no finite number, by its name.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<&'static str> {
+        let energy = &self.energy;
+        let parts = |parts: &EnergyParts| [parts.translational, parts.rotational, parts.potential];
+        let all = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        let momentum = &self.momentum;
+        let shares = [momentum.from_surroundings, momentum.from_gravity, momentum.balance_error];
+        let gas = self.temperature.map(|gas| [gas.translational, gas.rotational]);
+        let figures = [
+            ("time", self.time.is_finite()),
+            ("energy", all(&[energy.initial, energy.end])),
+            ("energy", all(&parts(&energy.parts)) && all(&parts(&energy.initial_parts))),
+            ("change of the energy", energy.relative_change.is_finite()),
+            ("drift of the integrator", energy.integrator_drift.is_none_or(f64::is_finite)),
+            ("momentum", all(&momentum.initial) && all(&momentum.end)),
+            ("balance of the momentum", all(shares.as_flattened())),
+            ("angular momentum", all(&self.angular_momentum.initial)),
+            ("angular momentum", all(&self.angular_momentum.end)),
+            ("temperature", gas.is_none_or(|gas| all(&gas))),
+            ("compressibility", self.compressibility.is_none_or(f64::is_finite)),
+            ("collision rate", self.collision_rate.is_none_or(f64::is_finite)),
+            ("mean free path", self.mean_free_path.is_none_or(f64::is_finite)),
+        ];
+        figures.into_iter().find(|(_, is_finite)| !is_finite).map(|(name, _)| name)
     }
 }
 
@@ -273,7 +313,7 @@ impl EnergySummary {
         Self {
             initial: before.total(),
             end: after.total(),
-            relative_change: after.relative_change(before),
+            relative_change: after.relative_change(before, work.fall),
             parts: parts(after),
             initial_parts: parts(before),
             integrator_drift: law.map(drift),

@@ -71,24 +71,48 @@ impl Energy {
             .value()
     }
 
-    /// How far the total is from an earlier one, as a fraction of that one.
+    /// How far the total is from an earlier one, as a fraction of what the motion
+    /// can exchange ([`energy_scale`]).
     ///
-    /// Where the earlier total is 0, as a fraction of the kinetic energy now:
-    /// the zero of the potential is a convention, so a total of 0 is a state
-    /// like any other.
+    /// The zero of the potential is a convention: it changes neither.
     ///
     /// ```
     /// use carom::observe::Energy;
-    /// let before = Energy { translational: 4.0, ..Energy::default() };
-    /// let after = Energy { translational: 2.0, rotational: 1.0, potential: 0.0 };
-    /// assert_eq!(after.relative_change(&before), -0.25);
+    /// let before = Energy { translational: 4.0, rotational: 0.0, potential: 1e9 };
+    /// let after = Energy { translational: 2.0, rotational: 1.0, potential: 1e9 };
+    /// assert_eq!(after.relative_change(&before, 0.0), -0.25);
+    /// assert_eq!(after.relative_change(&before, 6.0), -0.1);
     /// ```
     #[must_use]
-    pub fn relative_change(&self, earlier: &Self) -> f64 {
-        let change = self.total() - earlier.total();
-        let scale = if earlier.total() == 0.0 { self.kinetic() } else { earlier.total().abs() };
+    pub fn relative_change(&self, earlier: &Self, fall: f64) -> f64 {
+        let parts = [
+            self.translational,
+            self.rotational,
+            self.potential,
+            -earlier.translational,
+            -earlier.rotational,
+            -earlier.potential,
+        ];
+        let change = parts.into_iter().collect::<CompensatedSum>().value();
+        let kinetic = [earlier.kinetic(), self.kinetic()];
+        let scale = energy_scale(kinetic, [earlier.potential, self.potential], fall);
         if change == 0.0 { 0.0 } else { change / scale }
     }
+}
+
+/// What a change of the energy between two states is measured by: the greater
+/// kinetic energy, the change of the potential one, and the energy `fall` that the
+/// scene lets bodies fall through ([`fall_energy`](super::fall_energy)). It is the
+/// energy that the motion can exchange: not the potential about a far origin, and
+/// never a total that cancels.
+///
+/// ```
+/// use carom::observe::energy_scale;
+/// assert_eq!(energy_scale([4.0, 3.0], [1e6, 1e6 + 1.0], 10.0), 15.0);
+/// ```
+#[must_use]
+pub fn energy_scale(kinetic: [f64; 2], potential: [f64; 2], fall: f64) -> f64 {
+    kinetic[0].max(kinetic[1]) + (potential[1] - potential[0]).abs() + fall
 }
 
 /// The energy that an integrator adds to bodies of total mass `mass` in a

@@ -5,6 +5,7 @@ use std::io;
 use crate::engine::{Event, Partner};
 use crate::output::{CsvLine, as_io, csv_writer};
 use crate::real::Real;
+use crate::vec3::Vec3;
 
 /// The columns of an events file.
 ///
@@ -93,6 +94,10 @@ impl<W: io::Write> EventWriter<W> {
     }
 
     fn write<T: Real>(&mut self, event: &Event<T>) -> io::Result<()> {
+        if !is_finite(event) {
+            let at = format!("a collision of body {} is no longer finite", event.a);
+            return Err(io::Error::new(io::ErrorKind::InvalidData, at));
+        }
         let line = &mut self.line;
         line.numbers([event.time]);
         line.shown(event.a);
@@ -125,7 +130,8 @@ impl<W: io::Write> EventWriter<W> {
     /// Reports a failure to write any of the collisions so far.
     ///
     /// # Errors
-    /// If the output took no more.
+    /// If the output took no more, or if a collision had a figure that is no finite
+    /// number ([`InvalidData`](io::ErrorKind::InvalidData)).
     pub fn check(&mut self) -> io::Result<()> {
         self.failure.take().map_or(Ok(()), Err)
     }
@@ -140,10 +146,22 @@ impl<W: io::Write> EventWriter<W> {
     }
 }
 
+/// Whether a collision consists of numbers.
+fn is_finite<T: Real>(event: &Event<T>) -> bool {
+    let own = [event.point, event.normal, event.tangential_impulse, event.velocity, event.spin];
+    let others = match event.partner {
+        Partner::Body { velocity, spin, .. } => [velocity, spin],
+        Partner::Surroundings(_) => [Vec3::ZERO; 2],
+    };
+    let is_finite = |vector: &Vec3<T>| vector.to_array().iter().all(|value| value.is_finite());
+    event.time.is_finite()
+        && event.normal_impulse.is_finite()
+        && own.iter().chain(&others).all(is_finite)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vec3::Vec3;
 
     fn event(partner: Partner<f32>) -> Event<f32> {
         let vector = |first: f32| Vec3::new(first, first + 0.5, -first);

@@ -3,6 +3,7 @@
 use std::io;
 
 use crate::bodies::Bodies;
+use crate::observe::not_finite;
 use crate::output::{CsvLine, as_io, csv_writer};
 use crate::real::Real;
 
@@ -36,8 +37,12 @@ pub const STATE_COLUMNS: [&str; 21] = [
 /// ```
 ///
 /// # Errors
-/// If the output takes no more.
+/// If the output takes no more, or if a figure of a body is [no finite
+/// number](not_finite), before anything is written.
 pub fn write_state<T: Real, W: io::Write>(output: W, bodies: &Bodies<T>) -> io::Result<()> {
+    if let Some(found) = not_finite(bodies) {
+        return Err(io::Error::new(io::ErrorKind::InvalidData, found.to_string()));
+    }
     let mut writer = csv_writer(output);
     writer.write_record(STATE_COLUMNS).map_err(as_io)?;
     let mut line = CsvLine::default();

@@ -9,6 +9,7 @@ use super::error::{Keyed, Problem, SceneError};
 use super::settings::{EngineKind, MOST_BODIES, MOST_STEPS};
 use super::spheres::{Make, Spheres, Spread};
 use crate::bodies::{Bodies, PerBody};
+use crate::contact::Surface;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::surroundings::{Mistake, corners, finite, is_positive, positive};
@@ -90,7 +91,7 @@ pub(super) fn entries<T: Real>(asked: &Description<T>) -> Result<Vec<Range<usize
             }
             Entry::Ready(bodies) => {
                 columns(bodies).map_err(fail)?;
-                figures(bodies).map_err(|(_, key, problem)| fail((key, problem)))?;
+                figures(bodies, asked.surface).map_err(|(_, key, problem)| fail((key, problem)))?;
                 bodies.len() as u64
             }
         };
@@ -103,6 +104,13 @@ pub(super) fn entries<T: Real>(asked: &Description<T>) -> Result<Vec<Range<usize
         ranges.push(start as usize..total as usize);
     }
     if total == 0 { Err(asked.origin.error("", Problem::Empty)) } else { Ok(ranges) }
+}
+
+/// What spheres are whose places are in a file.
+#[cfg(feature = "files")]
+pub(super) fn described<T: Real>(spheres: &Spheres) -> Result<(), Keyed> {
+    make::<T>(&spheres.make)?;
+    Ok(many::<T>(spheres)?)
 }
 
 /// What a sphere is and how it starts.
@@ -191,8 +199,9 @@ fn columns<T: Real>(bodies: &Bodies<T>) -> Result<(), Keyed> {
     Ok(())
 }
 
-/// Radii, masses and moments of inertia.
-pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+/// Radii, masses and moments of inertia. Smooth surfaces change no spin: there a
+/// moment of inertia may be too small for the precision.
+pub(super) fn figures<T: Real>(bodies: &Bodies<T>, surface: Surface) -> Result<(), Found> {
     let figures =
         [("radius", &bodies.radius), ("mass", &bodies.mass), ("inertia", &bodies.inertia)];
     for (key, figure) in figures {
@@ -200,15 +209,22 @@ pub(super) fn figures<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
             PerBody::Same(value) => core::slice::from_ref(value),
             PerBody::Each(column) => column,
         };
-        let wrong = values.iter().position(|value| !(*value > T::ZERO && value.is_finite()));
-        if let Some(body) = wrong {
+        let may_vanish = key == "inertia" && !surface.changes_spins();
+        let is_right = |value: &T| {
+            value.is_finite() && (*value > T::ZERO || (may_vanish && *value == T::ZERO))
+        };
+        if let Some(body) = values.iter().position(|value| !is_right(value)) {
             let what = if key == "inertia" { "moment of inertia" } else { key };
             let found = format!(
                 "such that the {what} of body {body} is {:?} in {}",
                 values[body].to_f64(),
                 T::NAME
             );
-            let wanted = "it must be finite and greater than 0".to_owned();
+            let finer = if T::NAME == "f32" { ", or precision = \"f64\"" } else { "" };
+            let wanted = format!(
+                "it must be finite and greater than 0: take units in which radii and masses are \
+                 nearer to 1{finer}"
+            );
             return Err((body, "", Problem::Value { found, wanted }));
         }
     }

@@ -13,8 +13,12 @@ use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::space::neighbours::{Neighbours, largest, tolerance};
-use crate::surroundings::{Feature, Shape};
+use crate::surroundings::{Feature, Shape, features_of};
 use crate::vec3::Vec3;
+
+/// By which part of their radii spheres may overlap what they touch where they
+/// come from the state of a run: a step ends with bodies in each other.
+const STATE_SLACK: f64 = 0.1;
 
 /// Checks all bodies. Centres on the upper face of the periodic box move to
 /// the lower one, which is the same place.
@@ -28,7 +32,8 @@ pub(super) fn bodies<T: Real>(
         let entry = ranges.partition_point(|range| range.end <= body);
         asked.origin.error_in(&format!("spheres[{entry}]"), (key, problem))
     };
-    figures(&bodies).map_err(of_entry)?;
+    let slack = if asked.has_state { STATE_SLACK } else { 0.0 };
+    figures(&bodies, asked.surface).map_err(of_entry)?;
     motion(&bodies).map_err(of_entry)?;
     orientation(&bodies).map_err(of_entry)?;
     if let Some(space) = &periodic {
@@ -39,7 +44,7 @@ pub(super) fn bodies<T: Real>(
     }
     if asked.encounters != Encounters::None {
         let shapes: Vec<_> = asked.surroundings.iter().map(|given| given.rounded).collect();
-        let misplaced = surroundings(&shapes, &bodies);
+        let misplaced = surroundings(&shapes, &bodies, slack);
         let first = misplaced.as_ref().map_or(shapes.len(), |misplaced| misplaced.0 + 1);
         if let Some(space) = &periodic {
             let radius = bodies.radius.greatest();
@@ -52,9 +57,12 @@ pub(super) fn bodies<T: Real>(
         if let Some((_, found)) = misplaced {
             return Err(of_entry(found));
         }
+        room(&shapes, asked.gravity, &bodies).map_err(|(index, problem)| {
+            asked.origin.error(format!("surroundings[{index}]"), problem)
+        })?;
     }
     if asked.encounters == Encounters::All {
-        overlaps(periodic, &bodies).map_err(of_entry)?;
+        overlaps(periodic, &bodies, slack).map_err(of_entry)?;
     }
     Ok(bodies)
 }
@@ -82,16 +90,21 @@ fn orientation<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
     }
     for body in 0..bodies.len() {
         let m = bodies.orientation_of(body);
-        let [a, b, c] = m.columns;
-        let error = (m.transpose() * m - Mat3::IDENTITY).rows();
-        let is_orthonormal = error.iter().all(|element| element.to_f64().abs() < 1e-3);
-        if !(is_orthonormal && a.cross(b).dot(c) > T::ZERO) {
+        if !is_rotation(m) {
             let found = format!("no rotation for body {body}");
             let wanted = "its columns must be orthonormal and right-handed".to_owned();
             return Err((body, "orientation", Problem::Value { found, wanted }));
         }
     }
     Ok(())
+}
+
+/// Whether a matrix is a rotation, to some rounding.
+pub(super) fn is_rotation<T: Real>(m: Mat3<T>) -> bool {
+    let [a, b, c] = m.columns;
+    let error = (m.transpose() * m - Mat3::IDENTITY).rows();
+    let is_orthonormal = error.iter().all(|element| element.to_f64().abs() < 1e-3);
+    is_orthonormal && a.cross(b).dot(c) > T::ZERO
 }
 
 /// Of all images of two spheres, only the nearest may be able to touch. Two
@@ -158,12 +171,16 @@ fn within<T: Real>(shape: &Shape<T>, space: &PeriodicBox<T>, radius: T) -> Resul
 
 /// The first body that is inside of something solid or outside of its container,
 /// at the first such shape.
-fn surroundings<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Option<(usize, Found)> {
+fn surroundings<T: Real>(
+    shapes: &[Shape<T>],
+    bodies: &Bodies<T>,
+    slack: f64,
+) -> Option<(usize, Found)> {
     let epsilon = T::EPSILON.to_f64();
     let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
     let tolerated = |feature: &Feature<T>, center: Vec3<T>, radius: T| {
         let coordinate = largest(center.cast().to_array()) + feature.farthest();
-        tolerance(epsilon, coordinate, radius.to_f64())
+        tolerance(epsilon, coordinate, radius.to_f64()) + slack * radius.to_f64()
     };
     let Misplaced { shape, body, depth } =
         Obstacles::new(shapes).first_overlap(bodies.len(), sphere, tolerated)?;
@@ -180,24 +197,99 @@ fn surroundings<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Option<(usi
     Some((shape, (body, "", Problem::Misplaced { body, beyond, depth, wanted })))
 }
 
+/// Between two faces that look at each other, a body has room to move if it does
+/// or is pulled to one of them. Where there is none it would meet both without
+/// end.
+fn room<T: Real>(
+    shapes: &[Shape<T>],
+    gravity: Vec3<T>,
+    bodies: &Bodies<T>,
+) -> Result<(), (usize, Problem)> {
+    /// More planes make no slab that a person has in mind.
+    const MOST: usize = 1000;
+    let epsilon = T::EPSILON.to_f64();
+    let (features, parts) = features_of(shapes);
+    let faces: Vec<_> = features
+        .iter()
+        .zip(parts)
+        .filter_map(|(feature, part)| match feature {
+            Feature::Plane(plane) => Some((*plane, part as usize)),
+            _ => None,
+        })
+        .take(MOST)
+        .collect();
+    let greatest = bodies.radius.greatest().to_f64();
+    for (first, &(floor, part)) in faces.iter().enumerate() {
+        let normal = floor.normal;
+        for &(ceiling, other) in &faces[first + 1..] {
+            let facing = (normal + ceiling.normal).cast::<f64>().length() <= 8.0 * epsilon;
+            let width = (ceiling.point - floor.point).cast::<f64>().dot(normal.cast());
+            let farthest =
+                [floor.point, ceiling.point].map(|point| largest(point.cast().to_array()));
+            let slack = tolerance(epsilon, farthest[0].max(farthest[1]), greatest);
+            if !facing || width - 2.0 * greatest > slack {
+                continue;
+            }
+            for body in 0..bodies.len() {
+                let radius = bodies.radius.of(body).to_f64();
+                let moves = |vector: Vec3<T>| {
+                    let vector = vector.cast::<f64>();
+                    vector.dot(normal.cast()).abs() > 8.0 * epsilon * vector.length()
+                };
+                let is_moved = moves(bodies.velocity_of(body)) || moves(gravity);
+                if is_moved && width - 2.0 * radius <= slack {
+                    let what = match (part == other, shapes[part].interior()) {
+                        (true, Some(_)) => "the container leaves".to_owned(),
+                        (true, None) => "its faces leave".to_owned(),
+                        (false, _) => format!("with surroundings[{other}] it leaves"),
+                    };
+                    let direction = direction(normal);
+                    return Err((
+                        part,
+                        Problem::Wedged { what, body, direction, width: 2.0 * radius },
+                    ));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The name of a direction.
+fn direction<T: Real>(vector: Vec3<T>) -> String {
+    let components = vector.to_array().map(|component| component.to_f64() + 0.0);
+    match components.map(f64::abs) {
+        [1.0, _, _] => "x".to_owned(),
+        [_, 1.0, _] => "y".to_owned(),
+        [_, _, 1.0] => "z".to_owned(),
+        _ => format!("the direction {components:?}"),
+    }
+}
+
 /// No two bodies overlap. The largest go first, and each then meets only
 /// bodies of its own size or larger: the time is linear in their number.
-fn overlaps<T: Real>(periodic: Option<PeriodicBox<T>>, bodies: &Bodies<T>) -> Result<(), Found> {
+fn overlaps<T: Real>(
+    periodic: Option<PeriodicBox<T>>,
+    bodies: &Bodies<T>,
+    slack: f64,
+) -> Result<(), Found> {
     let space = periodic.map(|space| {
         let corner = |point: Vec3<T>| point.to_array().map(T::to_f64);
         PeriodicBox::new(corner(space.lower), corner(space.upper))
     });
-    let greatest = bodies.radius.greatest().to_f64();
+    // Spheres that may overlap are as smaller ones that may not.
+    let hard = 1.0 - slack;
+    let greatest = hard * bodies.radius.greatest().to_f64();
     let mut table = Neighbours::new(bodies.len(), greatest, T::EPSILON.to_f64(), space);
     let finest = match &bodies.radius {
         PerBody::Same(_) => 0,
         PerBody::Each(column) => {
-            column.iter().map(|radius| table.level(radius.to_f64())).max().unwrap_or(0)
+            column.iter().map(|radius| table.level(hard * radius.to_f64())).max().unwrap_or(0)
         }
     };
     for level in 0..=finest {
         let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
-        let radius = |body: u32| bodies.radius.of(body as usize).to_f64();
+        let radius = |body: u32| hard * bodies.radius.of(body as usize).to_f64();
         let mut order: Vec<u32> = (0..bodies.len() as u32)
             .filter(|body| finest == 0 || table.level(radius(*body)) == level)
             .collect();
@@ -205,7 +297,8 @@ fn overlaps<T: Real>(periodic: Option<PeriodicBox<T>>, bodies: &Bodies<T>) -> Re
         for body in order {
             if let Some(other) = table.overlapping(center(body), radius(body)) {
                 let (a, b) = (body.min(other.id) as usize, body.max(other.id) as usize);
-                return Err((b, "", Problem::Overlap { a, b, depth: other.depth }));
+                let soft = (radius(a as u32) + radius(b as u32)) / hard * slack;
+                return Err((b, "", Problem::Overlap { a, b, depth: other.depth + soft }));
             }
             table.insert(body, center(body), radius(body));
         }

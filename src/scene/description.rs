@@ -80,6 +80,8 @@ pub(super) struct Description<T: Real> {
     pub(super) stepped: SteppedSettings,
     pub(super) seed: u64,
     pub(super) entries: Vec<Entry<T>>,
+    /// Whether spheres come from the state of an earlier run.
+    pub(super) has_state: bool,
     pub(super) origin: Origin,
 }
 
@@ -99,6 +101,7 @@ impl<T: Real> Description<T> {
             stepped: SteppedSettings::default(),
             seed: 0,
             entries: Vec::new(),
+            has_state: false,
             origin,
         }
     }

@@ -39,6 +39,9 @@ impl SceneFile {
         if bodies > MOST_BODIES {
             return Err(refused(format!("a scene has {MOST_BODIES} at most")));
         }
+        if self.raw.spheres.iter().any(|raw| raw.file.is_some()) {
+            return Err(refused("a file says how many spheres there are".to_owned()));
+        }
         let groups = || self.raw.spheres.iter().filter_map(count_of);
         let singles = self.raw.spheres.iter().filter(|raw| raw.position.is_some()).count() as u64;
         let grouped = groups().map(|count| count as f64).sum::<f64>();

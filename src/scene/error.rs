@@ -38,7 +38,7 @@ impl fmt::Display for Place {
             write!(f, ":{line}")?;
         }
         write!(f, ":")?;
-        if self.key.is_empty() { Ok(()) } else { write!(f, " {}", self.key) }
+        if self.key.is_empty() { Ok(()) } else { write!(f, " {}", cut(&self.key)) }
     }
 }
 
@@ -97,7 +97,7 @@ pub enum Problem {
         known: String,
     },
     /// A value that is of the wrong type or out of range.
-    #[error("is {found}; {wanted}")]
+    #[error("is {}; {wanted}", cut(found))]
     Value {
         /// What it is.
         found: String,
@@ -143,6 +143,22 @@ pub enum Problem {
         depth: f64,
         /// What would be right.
         wanted: &'static str,
+    },
+    /// A sphere that has no room to move between two faces.
+    #[error(
+        "does not fit: {what} body {body} no room in {direction}, along which it moves or is pulled; \
+         there must be more than its diameter, {}, or neither velocity nor gravity in {direction}",
+        short(*width)
+    )]
+    Wedged {
+        /// What leaves it no room.
+        what: String,
+        /// Its index.
+        body: usize,
+        /// In which direction.
+        direction: String,
+        /// Its diameter, length.
+        width: f64,
     },
     /// More spheres than there is room for.
     #[error("is {count}, for which there is no room: {reason}")]
@@ -197,6 +213,16 @@ pub(super) type Keyed = (&'static str, Problem);
 impl From<Mistake> for Keyed {
     fn from(mistake: Mistake) -> Self {
         (mistake.key, mistake.into())
+    }
+}
+
+/// A value in a message, cut if it is long.
+fn cut(value: &str) -> String {
+    /// The most characters.
+    const LONGEST: usize = 200;
+    match value.char_indices().nth(LONGEST) {
+        None => value.to_owned(),
+        Some((end, _)) => format!("{}…", &value[..end]),
     }
 }
 

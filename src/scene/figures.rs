@@ -13,6 +13,15 @@ pub(super) enum Values {
 }
 
 impl Values {
+    /// A list of values, stored once if they are equal.
+    #[cfg(feature = "files")]
+    pub(super) fn listed(values: Vec<f64>) -> Self {
+        match values.first() {
+            Some(first) if values.iter().all(|value| value == first) => Self::Same(*first),
+            _ => Self::Each(values),
+        }
+    }
+
     pub(super) fn of(&self, index: usize) -> f64 {
         match self {
             Self::Same(value) => *value,
@@ -53,23 +62,32 @@ pub(super) struct Figures {
 
 impl Figures {
     pub(super) fn new(make: &Make, count: usize, seed: Seed) -> Self {
-        let spread = make.radius.unwrap_or(Spread::Same(0.0));
-        let mut radius = Values::drawn(spread, count, seed.random(Purpose::Radius));
-        if let Values::Each(values) = &mut radius {
-            // The largest find their places first, while there is room.
-            values.sort_unstable_by(|a, b| b.total_cmp(a));
-        }
-        let mass = match make.density {
-            None => {
-                let mass = make.mass.unwrap_or(Spread::Same(1.0));
-                Values::drawn(mass, count, seed.random(Purpose::Mass))
+        Self::beside(make, count, seed, None, None)
+    }
+
+    /// Those of a group that has radii, or masses, already.
+    pub(super) fn beside(
+        make: &Make,
+        count: usize,
+        seed: Seed,
+        radius: Option<Values>,
+        mass: Option<Values>,
+    ) -> Self {
+        let radius = radius.unwrap_or_else(|| {
+            let spread = make.radius.unwrap_or(Spread::Same(0.0));
+            let mut radius = Values::drawn(spread, count, seed.random(Purpose::Radius));
+            if let Values::Each(values) = &mut radius {
+                // The largest find their places first, while there is room.
+                values.sort_unstable_by(|a, b| b.total_cmp(a));
             }
-            Some(density) => Values::drawn(density, count, seed.random(Purpose::Mass)).combined(
-                &radius,
-                count,
-                |density, r| density * (4.0 / 3.0 * PI * (r * r * r)),
-            ),
-        };
+            radius
+        });
+        let drawn = |spread| Values::drawn(spread, count, seed.random(Purpose::Mass));
+        let mass = mass.unwrap_or_else(|| match make.density {
+            None => drawn(make.mass.unwrap_or(Spread::Same(1.0))),
+            Some(density) => drawn(density)
+                .combined(&radius, count, |density, r| density * (4.0 / 3.0 * PI * (r * r * r))),
+        });
         let inertia = mass.combined(&radius, count, |m, r| make.inertia_factor * m * (r * r));
         Self { radius, mass, inertia }
     }

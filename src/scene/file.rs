@@ -1,16 +1,23 @@
 //! The scene file: from TOML to a description.
 
-use std::path::Path;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::builtin;
+use super::check;
 use super::checked::Scene;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
 use super::origin::Origin;
+use super::pieces;
+use super::random::Seed;
 use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
+use super::reading;
 use super::settings::{EngineKind, Precision, SteppedSettings};
-use super::spheres::{Make, Sphere, Spheres};
+use super::spheres::{Arrangement, Make, Sphere, Spheres, Spread};
+use super::state_file::StateFile;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::surroundings::{Mistake, NO_VECTOR, SHAPE_KINDS, Shape, ShapeKind};
@@ -45,6 +52,7 @@ use crate::vec3::Vec3;
 /// | `[[spheres]]` | Default | |
 /// |---|---|---|
 /// | `position` | | length; makes one sphere |
+/// | `file` | | the path of a state file, from the folder of this one: the spheres of its rows |
 /// | `count`, `arrangement` | | make many: `"fcc"`, `"cubic"` or `"random"` |
 /// | `lower`, `upper` | periodic box or container | the box that many fill |
 /// | `number_density` | | instead of a box, with `periodic = "cube"` |
@@ -53,6 +61,10 @@ use crate::vec3::Vec3;
 /// | `mass` or `density` | mass 1 | |
 /// | `inertia_factor` | 0.4 | `I / (m r²)`, above 0 and up to 2/3 |
 /// | `velocity`, `spin` | `[0, 0, 0]` | length and rad per time; of many, added to all |
+///
+/// A state file has at least the columns `x`, `y`, `z`; the other keys stand for
+/// columns that it has not. The only entry can also be written
+/// `spheres = { file = "state.csv" }`.
 ///
 /// `radius`, `mass` and `density` can be two numbers, `[least, greatest]`, to
 /// spread evenly over.
@@ -86,6 +98,8 @@ pub struct SceneFile {
     /// The seed of all random numbers; 0 by default.
     pub seed: u64,
     path: String,
+    /// What paths in the file start from.
+    folder: PathBuf,
     text: Arc<str>,
     pub(super) raw: RawScene,
 }
@@ -109,12 +123,12 @@ impl SceneFile {
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let shown = path.display().to_string();
         let origin = Origin::code(&shown);
-        let bytes =
-            std::fs::read(path).map_err(|error| origin.error("", Problem::Unreadable(error)))?;
+        let bytes = read(path).map_err(|error| origin.error("", Problem::Unreadable(error)))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             origin.error("", Problem::NotText(error.utf8_error().valid_up_to()))
         })?;
         let mut file = Self::parse(&shown, &text)?;
+        file.folder = path.parent().unwrap_or(Path::new("")).into();
         if let Some(stem) = path.file_stem() {
             file.name = stem.to_string_lossy().into_owned();
         }
@@ -135,9 +149,11 @@ impl SceneFile {
     /// # Errors
     /// If the text is not TOML, or has an unknown key or a value of the wrong
     /// type.
+    ///
+    /// Paths in it start from the working directory.
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
         let text: Arc<str> = text.into();
-        let raw: RawScene = toml::from_str(&text)
+        let raw = pieces::scene(&text)
             .map_err(|error| Origin::file(name, Arc::clone(&text)).toml_error(&error))?;
         Ok(Self {
             name: name.to_owned(),
@@ -150,6 +166,7 @@ impl SceneFile {
             dt: number(raw.stepped.as_ref().and_then(|stepped| stepped.dt)),
             seed: raw.seed.map_or(0, |Whole(seed)| seed),
             path: name.to_owned(),
+            folder: PathBuf::new(),
             text,
             raw,
         })
@@ -258,9 +275,77 @@ impl SceneFile {
             asked.surroundings.push(GivenShape::exact(shape(&origin, index, raw)?));
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
-            asked.entries.push(spheres(&origin, index, raw)?);
+            let entry = match &raw.file {
+                None => spheres(&origin, index, raw)?,
+                Some(file) => self.state(&origin, index, raw, file)?,
+            };
+            asked.has_state |= raw.file.is_some();
+            asked.entries.push(entry);
         }
         Scene::new(asked)
+    }
+
+    /// The files that the scene is read from besides its own.
+    #[must_use]
+    pub fn state_files(&self) -> Vec<PathBuf> {
+        let files = self.raw.spheres.iter().filter_map(|raw| raw.file.as_ref());
+        files.map(|file| self.folder.join(file)).collect()
+    }
+
+    /// Spheres from a state file; what it has no column for, from the entry.
+    fn state<T: Real>(
+        &self,
+        origin: &Origin,
+        index: usize,
+        raw: &RawSpheres,
+        file: &str,
+    ) -> Result<Entry<T>, SceneError> {
+        let entry = format!("spheres[{index}]");
+        let conflict = |key: &str, other: &str, reason: &str| {
+            origin.error(format!("{entry}.{key}"), Problem::conflict(other, reason))
+        };
+        let given = ("position", raw.position.is_some());
+        if let Some((key, _)) = of_many(raw).into_iter().chain([given]).find(|(_, given)| *given) {
+            return Err(conflict(
+                key,
+                "file",
+                "the file says how many spheres there are and where",
+            ));
+        }
+        let path = self.folder.join(file);
+        let opened = reading::open(&path).map_err(|error| {
+            let found = format!("{file:?}, which cannot be read: {error}");
+            let wanted = "give the path of a state file, from the folder of the scene file";
+            let problem = Problem::Value { found, wanted: wanted.to_owned() };
+            origin.error(format!("{entry}.file"), problem)
+        })?;
+        let state = StateFile::new(&path, opened)?;
+        let has = state.has();
+        for (key, is_given, is_there) in [
+            ("radius", raw.radius.is_some(), has.radius),
+            ("mass", raw.mass.is_some(), has.mass),
+            ("density", raw.density.is_some(), has.mass),
+            ("velocity", raw.velocity.is_some(), has.velocity),
+            ("temperature", raw.temperature.is_some(), has.velocity),
+            ("spin", raw.spin.is_some(), has.spin),
+            ("spin_temperature", raw.spin_temperature.is_some(), has.spin),
+        ] {
+            if is_given && is_there {
+                let reason = "the file has columns for it; leave out one of them";
+                return Err(conflict(key, &format!("{:?}", path.display().to_string()), reason));
+            }
+        }
+        let mut spheres = Spheres {
+            temperature: number(raw.temperature).unwrap_or(0.0),
+            spin_temperature: number(raw.spin_temperature).unwrap_or(0.0),
+            make: make(raw),
+            ..Spheres::new(1, Arrangement::Random)
+        };
+        let described = &mut spheres.make;
+        described.radius = described.radius.or(has.radius.then_some(Spread::Same(1.0)));
+        check::described::<T>(&spheres).map_err(|keyed| origin.error_in(&entry, keyed))?;
+        let seed = Seed { seed: self.seed, group: index as u64 };
+        Ok(Entry::Ready(Box::new(state.bodies(&spheres, seed)?)))
     }
 
     /// Which values came from where.
@@ -323,25 +408,13 @@ fn spheres<T: Real>(
     raw: &RawSpheres,
 ) -> Result<Entry<T>, SceneError> {
     let entry = format!("spheres[{index}]");
-    let make = Make {
-        radius: raw.radius,
-        mass: raw.mass,
-        density: raw.density,
-        inertia_factor: number(raw.inertia_factor).unwrap_or(0.4),
-        velocity: raw.velocity.map_or([0.0; 3], |Vector(velocity)| velocity),
-        spin: raw.spin.map_or([0.0; 3], |Vector(spin)| spin),
-    };
+    let make = make(raw);
     if let Some(Vector(position)) = raw.position {
-        let given = [
-            ("count", raw.count.is_some()),
-            ("arrangement", raw.arrangement.is_some()),
-            ("lower", raw.lower.is_some()),
-            ("upper", raw.upper.is_some()),
-            ("number_density", raw.number_density.is_some()),
+        let mut given = of_many(raw).into_iter().chain([
             ("temperature", raw.temperature.is_some()),
             ("spin_temperature", raw.spin_temperature.is_some()),
-        ];
-        if let Some((key, _)) = given.iter().find(|(_, given)| *given) {
+        ]);
+        if let Some((key, _)) = given.find(|(_, given)| *given) {
             let reason = "an entry is one sphere with a position, or a count of them";
             let problem = Problem::conflict("position", reason);
             return Err(origin.error(format!("{entry}.{key}"), problem));
@@ -349,7 +422,7 @@ fn spheres<T: Real>(
         return Ok(Entry::One(Sphere { position, make }));
     }
     let Some(Whole(count)) = raw.count else {
-        let wanted = "an entry is one sphere with a position, or a count of them";
+        let wanted = "an entry is one sphere with a position, a count of them, or a file";
         return Err(origin.error(format!("{entry}.position"), Problem::missing(wanted)));
     };
     let Some(arrangement) = raw.arrangement else {
@@ -373,4 +446,35 @@ fn spheres<T: Real>(
         seed: None,
         make,
     }))
+}
+
+/// What spheres are and how they start, apart from their places.
+fn make(raw: &RawSpheres) -> Make {
+    Make {
+        radius: raw.radius,
+        mass: raw.mass,
+        density: raw.density,
+        inertia_factor: number(raw.inertia_factor).unwrap_or(0.4),
+        velocity: raw.velocity.map_or([0.0; 3], |Vector(velocity)| velocity),
+        spin: raw.spin.map_or([0.0; 3], |Vector(spin)| spin),
+    }
+}
+
+/// The keys of how many spheres there are and where, and whether they are given.
+fn of_many(raw: &RawSpheres) -> [(&'static str, bool); 5] {
+    [
+        ("count", raw.count.is_some()),
+        ("arrangement", raw.arrangement.is_some()),
+        ("lower", raw.lower.is_some()),
+        ("upper", raw.upper.is_some()),
+        ("number_density", raw.number_density.is_some()),
+    ]
+}
+
+/// All bytes of a file.
+fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut file: File = reading::open(path)?;
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }

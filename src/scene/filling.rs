@@ -93,31 +93,38 @@ impl<T: Real> Filling<T> {
         figures: &Figures,
         seed: Seed,
     ) {
-        let random = || seed.random(Purpose::Velocity);
-        let temperature = spheres.temperature;
-        let mut drift = spheres.make.velocity;
-        if temperature > 0.0 {
-            // A first draw of the same numbers finds the mean to take away.
-            let mut momentum = [0.0; 3];
-            let mut total = 0.0;
-            thermal(range.len(), temperature, &figures.mass, random(), |k, velocity| {
-                let mass = figures.mass.of(k);
-                total += mass;
-                for axis in 0..3 {
-                    momentum[axis] += mass * velocity[axis];
-                }
-            });
-            drift = core::array::from_fn(|axis| drift[axis] - momentum[axis] / total);
-        }
-        let columns = &mut self.velocity;
-        thermal(range.len(), temperature, &figures.mass, random(), |k, velocity| {
-            set(columns, range.start + k, core::array::from_fn(|i| velocity[i] + drift[i]));
+        velocities(range.len(), spheres, figures, seed, |k, velocity| {
+            set(&mut self.velocity, range.start + k, velocity);
         });
-        let (random, common) = (seed.random(Purpose::Spin), spheres.make.spin);
-        let columns = &mut self.spin;
-        thermal(range.len(), spheres.spin_temperature, &figures.inertia, random, |k, spin| {
-            set(columns, range.start + k, core::array::from_fn(|i| spin[i] + common[i]));
+        spins(range.len(), spheres, figures, seed, |k, spin| {
+            set(&mut self.spin, range.start + k, spin);
         });
+    }
+
+    /// The velocities with which a group of its own starts.
+    #[cfg(feature = "files")]
+    pub(super) fn velocities(
+        count: usize,
+        spheres: &Spheres,
+        figures: &Figures,
+        seed: Seed,
+    ) -> Columns3<T> {
+        let mut columns = core::array::from_fn(|_| Column::new(count, T::ZERO));
+        velocities(count, spheres, figures, seed, |k, velocity| set(&mut columns, k, velocity));
+        columns
+    }
+
+    /// The spins with which a group of its own starts.
+    #[cfg(feature = "files")]
+    pub(super) fn spins(
+        count: usize,
+        spheres: &Spheres,
+        figures: &Figures,
+        seed: Seed,
+    ) -> Columns3<T> {
+        let mut columns = core::array::from_fn(|_| Column::new(count, T::ZERO));
+        spins(count, spheres, figures, seed, |k, spin| set(&mut columns, k, spin));
+        columns
     }
 
     pub(super) fn copy(&mut self, start: usize, bodies: &Bodies<T>) {
@@ -155,6 +162,49 @@ impl<T: Real> Filling<T> {
             inertia: self.inertia.into_values(),
         }
     }
+}
+
+/// Draws the velocities of a group.
+fn velocities(
+    count: usize,
+    spheres: &Spheres,
+    figures: &Figures,
+    seed: Seed,
+    mut take: impl FnMut(usize, [f64; 3]),
+) {
+    let random = || seed.random(Purpose::Velocity);
+    let temperature = spheres.temperature;
+    let mut drift = spheres.make.velocity;
+    if temperature > 0.0 {
+        // A first draw of the same numbers finds the mean to take away.
+        let mut momentum = [0.0; 3];
+        let mut total = 0.0;
+        thermal(count, temperature, &figures.mass, random(), |k, velocity| {
+            let mass = figures.mass.of(k);
+            total += mass;
+            for axis in 0..3 {
+                momentum[axis] += mass * velocity[axis];
+            }
+        });
+        drift = core::array::from_fn(|axis| drift[axis] - momentum[axis] / total);
+    }
+    thermal(count, temperature, &figures.mass, random(), |k, velocity| {
+        take(k, core::array::from_fn(|i| velocity[i] + drift[i]));
+    });
+}
+
+/// Draws the spins of a group.
+fn spins(
+    count: usize,
+    spheres: &Spheres,
+    figures: &Figures,
+    seed: Seed,
+    mut take: impl FnMut(usize, [f64; 3]),
+) {
+    let (random, common) = (seed.random(Purpose::Spin), spheres.make.spin);
+    thermal(count, spheres.spin_temperature, &figures.inertia, random, |k, spin| {
+        take(k, core::array::from_fn(|i| spin[i] + common[i]));
+    });
 }
 
 /// Draws `count` vectors of a Maxwell distribution: each component with

@@ -31,7 +31,7 @@ pub(super) struct RawScene {
     pub(super) surface: RawSurface,
     #[serde(default)]
     pub(super) surroundings: Vec<RawSurroundings>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "entries")]
     pub(super) spheres: Vec<RawSpheres>,
 }
 
@@ -68,10 +68,11 @@ pub(super) struct RawBounds {
     pub(super) upper: Option<Vector>,
 }
 
-/// `[[spheres]]`: the keys of one and of many.
+/// `[[spheres]]`: the keys of one, of many and of those in a file.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawSpheres {
+    pub(super) file: Option<String>,
     pub(super) position: Option<Vector>,
     pub(super) count: Option<Whole>,
     pub(super) arrangement: Option<Arrangement>,
@@ -204,3 +205,27 @@ deserialize!(RawPeriodic, deserialize_any, "a table of lower and upper, or \"cub
         RawBounds::deserialize(MapAccessDeserializer::new(map)).map(RawPeriodic::Box)
     }
 });
+
+/// `[[spheres]]`, or the one entry that `spheres = { … }` is.
+fn entries<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<RawSpheres>, D::Error> {
+    struct Taker;
+    impl<'de> Visitor<'de> for Taker {
+        type Value = Vec<RawSpheres>;
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("[[spheres]] entries, or a table as { file = \"state.csv\" }")
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Self::Value, A::Error> {
+            let mut entries = Vec::new();
+            while let Some(entry) = elements.next_element()? {
+                entries.push(entry);
+            }
+            Ok(entries)
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+            RawSpheres::deserialize(MapAccessDeserializer::new(map)).map(|entry| vec![entry])
+        }
+    }
+    deserializer.deserialize_any(Taker)
+}

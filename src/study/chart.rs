@@ -11,6 +11,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::StudyError;
 use super::folder::{Folder, write};
+use crate::output::Temporary;
 use axis::Divided;
 
 pub use axis::{Axis, Scale};
@@ -115,7 +116,8 @@ impl Picture {
         write(&path, text.as_bytes())?;
 
         let path = folder.join(format!("{name}.png"));
-        let file = tempfile::Builder::new().prefix(".carom-").suffix(".png").tempfile_in(folder);
+        // The back end draws into a file, whose name says in which format.
+        let file = Temporary::new(folder, ".png");
         let file = file.map_err(|error| failed(&path, error.to_string()))?;
         self.draw(&BitMapBackend::new(file.path(), size).into_drawing_area())
             .map_err(|reason| failed(&path, reason))?;
@@ -289,9 +291,11 @@ mod tests {
         // Letters are drawn, not only lines: the picture without a font is
         // smaller.
         assert!(png.len() > 20_000, "{} bytes", png.len());
-        assert_eq!(std::fs::read_dir(folder.path())?.count(), 2);
+        // Nothing else is left, now that the folder is no longer locked.
+        drop(folder);
+        assert_eq!(std::fs::read_dir(temporary.path())?.count(), 2);
         if let Some(path) = std::env::var_os("CAROM_KEEP_CHART") {
-            std::fs::copy(folder.path().join("orders.png"), path)?;
+            std::fs::copy(temporary.path().join("orders.png"), path)?;
         }
         Ok(())
     }

@@ -27,6 +27,8 @@ pub struct Truth<T: Real = DoubleDouble> {
     pub invariants: Invariants,
     gravity: Vec3<DoubleDouble>,
     periodic: Option<PeriodicBox<DoubleDouble>>,
+    /// The potential energy that bodies can fall through.
+    fall: f64,
 }
 
 /// How far a state is from what it should be. Of bodies, the root of the mean
@@ -50,16 +52,22 @@ pub struct Deviation {
 }
 
 impl<T: Real> Truth<T> {
-    /// The present state of a world, in this field and this box.
+    /// The present state of a world, in this field and this box, where bodies fall
+    /// through this potential energy ([`fall_energy`](crate::observe::fall_energy)).
     #[must_use]
-    pub fn of(world: &World<T>, gravity: Vec3<T>, periodic: Option<PeriodicBox<T>>) -> Self {
+    pub fn of(
+        world: &World<T>,
+        gravity: Vec3<T>,
+        periodic: Option<PeriodicBox<T>>,
+        fall: f64,
+    ) -> Self {
         let gravity = gravity.cast::<DoubleDouble>();
         let bounds = |corner: Vec3<T>| corner.cast::<DoubleDouble>().to_array();
         let periodic =
             periodic.map(|space| PeriodicBox::new(bounds(space.lower), bounds(space.upper)));
         let bodies = world.bodies();
         let invariants = Invariants::of(&bodies, gravity);
-        Self { time: world.time(), bodies, invariants, gravity, periodic }
+        Self { time: world.time(), bodies, invariants, gravity, periodic, fall }
     }
 
     /// How far the bodies of a world that should be here are from it.
@@ -83,7 +91,8 @@ impl<T: Real> Truth<T> {
             angle_between(bodies.orientation_of(index), self.bodies.orientation_of(index))
         });
         let invariants = Invariants::of(bodies, self.gravity);
-        let [energy, momentum, angular_momentum] = invariants.change_since(&self.invariants);
+        let [energy, momentum, angular_momentum] =
+            invariants.change_since(&self.invariants, self.fall);
         Deviation {
             position: root_mean_square(&positions),
             position_worst: positions.iter().copied().fold(0.0, f64::max),

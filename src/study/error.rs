@@ -33,6 +33,33 @@ pub enum StudyError {
         .0.display()
     )]
     AnotherStudy(PathBuf),
+    /// Another process makes a study in the folder.
+    #[error(
+        "{}: a study is under way there, in {}; wait for its end, or give this one a folder of its \
+         own with --output",
+        path.display(),
+        process.map_or_else(|| "another process".to_owned(), |number| format!("process {number}"))
+    )]
+    UnderWay {
+        /// The folder.
+        path: PathBuf,
+        /// The number of the process, if it is known.
+        process: Option<u32>,
+    },
+    /// A line of the journal is not what a study writes.
+    #[error(
+        "{}:{line}: this is no result of a study: {reason}; mend or remove the line, or take \
+         --restart, which forgets all results of this folder",
+        path.display()
+    )]
+    Damaged {
+        /// The journal.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Lanes or threads, which change no bit of a result, have changed some.
     #[error("{0}: this is a mistake in carom, please report it with the scene and the machine")]
     DifferentBits(String),

@@ -1,27 +1,48 @@
 //! Folder: where a study keeps its results.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::process;
 
 use serde::Serialize;
 
 use super::{Journal, StudyError};
+use crate::output::{Listed, write_whole};
 
 /// The file with the results of single points.
 const JOURNAL: &str = "points.jsonl";
 
-/// A folder that is there.
+/// The file that one process at a time has locked, with its number.
+const LOCK: &str = ".carom.lock";
+
+/// A folder that is there, and that no other process writes into.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
+    _lock: Lock,
+}
+
+/// A file that is locked as long as it is open, however the process ends.
+#[derive(Debug)]
+struct Lock {
+    path: PathBuf,
+    _file: File,
+    _listed: Listed,
+}
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // Still locked: whoever has opened it already finds that it is gone.
+        let _ = fs::remove_file(&self.path);
+    }
 }
 
 impl Folder {
     /// A folder, made if it is not there. The one around it has to be.
     ///
     /// # Errors
-    /// If it cannot be made.
+    /// If it cannot be made or written, or if another study is under way in it.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
         let refused = |reason: String| StudyError::NoFolder { path: path.into(), reason };
         match fs::create_dir(path) {
@@ -32,7 +53,9 @@ impl Folder {
             }
             Err(error) => return Err(refused(error.to_string())),
         }
-        Ok(Self { path: path.into() })
+        let path = PathBuf::from(path);
+        let lock = Lock::of(&path)?;
+        Ok(Self { path, _lock: lock })
     }
 
     /// Where it is.
@@ -99,15 +122,70 @@ impl Folder {
     }
 }
 
-/// Writes a whole file, or none: under another name first, so that nothing half
-/// written ever has its own.
+impl Lock {
+    /// The lock of a folder, taken. A file system without locks has none to take.
+    fn of(folder: &Path) -> Result<Self, StudyError> {
+        let path = folder.join(LOCK);
+        let failed = |source| StudyError::File { path: path.clone(), source };
+        let mut options = OpenOptions::new();
+        options.read(true).write(true).create(true).truncate(false);
+        let mut attempts = 0;
+        loop {
+            attempts += 1;
+            let mut file = options.open(&path).map_err(failed)?;
+            if let Err(TryLockError::WouldBlock) = file.try_lock() {
+                let mut process = String::new();
+                // Without its number the sentence still says what is wrong.
+                let _ = file.take(20).read_to_string(&mut process);
+                let process = process.trim().parse().ok();
+                return Err(StudyError::UnderWay { path: folder.into(), process });
+            }
+            if is_at(&file, &path) || attempts > 100 {
+                file.set_len(0).map_err(failed)?;
+                writeln!(file, "{}", process::id()).map_err(failed)?;
+                let listed = Listed::new(path.clone());
+                return Ok(Self { path, _file: file, _listed: listed });
+            }
+        }
+    }
+}
+
+/// Whether a file is still the one of that name.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
+    match (file.metadata(), fs::metadata(path)) {
+        (Ok(own), Ok(named)) => identity(own) == identity(named),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
+
+/// Writes a whole file, or none.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".tmp");
-    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|source| {
-        // The file that stays is not worth a second message.
-        let _ = fs::remove_file(&beside);
-        StudyError::File { path: path.into(), source }
-    })
+    write_whole(path, bytes).map_err(|source| StudyError::File { path: path.into(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_study_at_a_time() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let first = Folder::open(folder.path())?;
+        let second = Folder::open(folder.path());
+        let own = process::id();
+        assert!(
+            matches!(second, Err(StudyError::UnderWay { process: Some(found), .. }) if found == own)
+        );
+        drop(first);
+        Folder::open(folder.path())?;
+        Ok(())
+    }
 }

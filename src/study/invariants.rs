@@ -3,6 +3,7 @@
 
 use crate::bodies::Bodies;
 use crate::lane::Lane;
+use crate::observe::energy_scale;
 use crate::real::{DoubleDouble, Real};
 use crate::vec3::Vec3;
 
@@ -18,6 +19,8 @@ pub struct Invariants {
     pub angular_momentum: Vec3<DoubleDouble>,
     /// `Σ ½ m v² + ½ I w²`.
     pub kinetic_energy: f64,
+    /// `−Σ m g·c`.
+    pub potential_energy: f64,
     /// `Σ m |v|`.
     pub momentum_scale: f64,
     /// `Σ |c × m v| + I |w|`.
@@ -29,11 +32,13 @@ impl Invariants {
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<DoubleDouble>) -> Self {
         let half = DoubleDouble::ratio(1, 2);
+        let mut potential = DoubleDouble::ZERO;
         let mut totals = Self {
             energy: DoubleDouble::ZERO,
             momentum: Vec3::ZERO,
             angular_momentum: Vec3::ZERO,
             kinetic_energy: 0.0,
+            potential_energy: 0.0,
             momentum_scale: 0.0,
             angular_momentum_scale: 0.0,
         };
@@ -50,23 +55,27 @@ impl Invariants {
             totals.momentum += momentum;
             totals.angular_momentum = totals.angular_momentum + orbital + spin * inertia;
             totals.kinetic_energy += kinetic.high();
+            potential = potential - mass * gravity.dot(position);
             totals.momentum_scale += momentum.length().high();
             totals.angular_momentum_scale +=
                 orbital.length().high() + (inertia * spin.length()).high();
         }
+        totals.potential_energy = potential.high();
         totals
     }
 
     /// How far these are from others: of the energy, of the momentum, of the
     /// angular momentum.
     ///
-    /// The energy is measured by the greatest of the others' energy and both
-    /// kinetic energies, the momenta by the sums of their terms' lengths.
+    /// The energy is measured by what the motion can exchange
+    /// ([`energy_scale`]), with the energy of a `fall` as the scene allows it; the
+    /// momenta by the sums of their terms' lengths.
     #[must_use]
-    pub fn change_since(&self, start: &Self) -> [f64; 3] {
+    pub fn change_since(&self, start: &Self, fall: f64) -> [f64; 3] {
         let energy = (self.energy - start.energy).high();
-        let energy_scale =
-            start.energy.high().abs().max(start.kinetic_energy).max(self.kinetic_energy);
+        let kinetic = [start.kinetic_energy, self.kinetic_energy];
+        let potential = [start.potential_energy, self.potential_energy];
+        let energy_scale = energy_scale(kinetic, potential, fall);
         let momentum = (self.momentum - start.momentum).length().high();
         let momentum_scale = start.momentum_scale.max(self.momentum_scale);
         let angular = (self.angular_momentum - start.angular_momentum).length().high();

@@ -18,7 +18,8 @@ use super::StudyError;
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
-    finished: HashMap<String, Value>,
+    /// The results, and the lines that they stand on.
+    finished: HashMap<String, (usize, Value)>,
     file: Option<Mutex<File>>,
 }
 
@@ -55,25 +56,25 @@ impl Journal {
             carom: env!("CARGO_PKG_VERSION").to_owned(),
             study: serde_json::to_value(study).map_err(io::Error::from).map_err(failed)?,
         };
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+        let bytes = match fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(error) => return Err(failed(error)),
         };
         // A line that an interrupt has cut off does not end.
-        let whole = &text[..text.rfind('\n').map_or(0, |end| end + 1)];
-        let mut lines = whole.lines();
+        let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
+        let whole = &bytes[..end];
+        let mut lines = whole.split_inclusive(|byte| *byte == b'\n').zip(1..);
         let mut finished = HashMap::new();
-        match lines.next() {
-            None => {}
-            Some(first) if serde_json::from_str(first).is_ok_and(|old: Heading| old == heading) => {
-                for line in lines {
-                    let Entry { point, result } =
-                        serde_json::from_str(line).map_err(io::Error::from).map_err(failed)?;
-                    finished.insert(point, result);
-                }
+        if let Some((first, number)) = lines.next() {
+            let old: Heading = read(path, number, first)?;
+            if old != heading {
+                return Err(StudyError::AnotherStudy(path.into()));
             }
-            Some(_) => return Err(StudyError::AnotherStudy(path.into())),
+        }
+        for (line, number) in lines {
+            let Entry { point, result } = read(path, number, line)?;
+            finished.insert(point, (number, result));
         }
         let mut file = OpenOptions::new().create(true).append(true).open(path).map_err(failed)?;
         file.set_len(whole.len() as u64).map_err(failed)?;
@@ -106,8 +107,9 @@ impl Journal {
     /// # Errors
     /// If it is not what it should be.
     pub fn result<R: DeserializeOwned>(&self, point: &str) -> Result<Option<R>, StudyError> {
-        let found = self.finished.get(point).cloned();
-        found.map(serde_json::from_value).transpose().map_err(|error| self.failed(error.into()))
+        let Some((line, result)) = self.finished.get(point) else { return Ok(None) };
+        let result = serde_json::from_value(result.clone());
+        result.map(Some).map_err(|error| damaged(&self.path, *line, &error))
     }
 
     /// Writes down the result of a point.
@@ -126,6 +128,18 @@ impl Journal {
     fn failed(&self, source: io::Error) -> StudyError {
         StudyError::File { path: self.path.clone(), source }
     }
+}
+
+/// What stands on a line.
+fn read<R: DeserializeOwned>(path: &Path, number: usize, line: &[u8]) -> Result<R, StudyError> {
+    serde_json::from_slice(line).map_err(|error| damaged(path, number, &error))
+}
+
+fn damaged(path: &Path, line: usize, error: &serde_json::Error) -> StudyError {
+    // The line that it counts is that of the text that it was given.
+    let reason = error.to_string();
+    let reason = reason.split_once(" at line ").map_or(reason.as_str(), |(reason, _)| reason);
+    StudyError::Damaged { path: path.into(), line, reason: reason.to_owned() }
 }
 
 /// A line of JSON, with its end.
@@ -151,6 +165,32 @@ mod tests {
         assert_eq!((journal.len(), journal.result("two")?), (2, Some(2.5)));
         let other = Journal::open(&path, &"another study");
         assert!(matches!(other, Err(StudyError::AnotherStudy(_))));
+        Ok(())
+    }
+
+    #[test]
+    fn a_damaged_line_is_named() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("points.jsonl");
+        let journal = Journal::open(&path, &"a study")?;
+        journal.keep("one", &1.5)?;
+        journal.keep("two", &2.5)?;
+        let text = fs::read(&path)?;
+        let damages: [(&[u8], usize); 4] =
+            [(b"carom", 1), (b"\"one\"", 2), (b"{\"point\":\"two", 3), (b"1.5", 2)];
+        for (damaged, line) in damages {
+            let at = text.windows(damaged.len()).position(|window| window == damaged);
+            let mut text = text.clone();
+            text[at.ok_or("not there")?] = 0xff;
+            fs::write(&path, text)?;
+            let error = Journal::open(&path, &"a study").map(drop).unwrap_err().to_string();
+            assert!(error.contains(&format!("points.jsonl:{line}:")), "{error}");
+            assert!(error.contains("--restart"), "{error}");
+        }
+        // A result that is one, but of something else.
+        fs::write(&path, String::from_utf8(text)?.replace("2.5", "\"2.5\""))?;
+        let error = Journal::open(&path, &"a study")?.result::<f64>("two").unwrap_err();
+        assert!(error.to_string().contains("points.jsonl:3:"), "{error}");
         Ok(())
     }
 }

@@ -1,6 +1,11 @@
 //! Subject: the scene that a study is of, as its files describe it.
 
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
 use serde::Serialize;
+use xxhash_rust::xxh3::Xxh3Default;
 
 use super::{Folder, StudyError};
 use crate::scene::SceneFile;
@@ -18,6 +23,9 @@ pub struct Subject {
     pub seed: u64,
     /// The scene file.
     pub text: String,
+    /// The hashes of the files that it takes spheres from.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<String>,
 }
 
 impl Subject {
@@ -30,6 +38,7 @@ impl Subject {
             dt: file.dt,
             seed: file.seed,
             text: file.text().to_owned(),
+            states: file.state_files().iter().map(|path| hash(path)).collect(),
         }
     }
 
@@ -40,4 +49,22 @@ impl Subject {
     pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
         folder.write("scene.toml", self.text.as_bytes())
     }
+}
+
+/// XXH3-64 of a file's bytes.
+fn hash(path: &Path) -> String {
+    let read = || -> io::Result<u64> {
+        let mut file = File::open(path)?;
+        let mut hasher = Xxh3Default::new();
+        let mut piece = vec![0; 1 << 16];
+        loop {
+            match file.read(&mut piece)? {
+                0 => return Ok(hasher.digest()),
+                length => hasher.update(&piece[..length]),
+            }
+        }
+    };
+    // Neither a pipe nor a device has an end. The scene that cannot be built says what is wrong with the file.
+    let hashed = if path.is_file() { read() } else { Err(io::ErrorKind::InvalidInput.into()) };
+    hashed.map_or_else(|_| "unreadable".to_owned(), |hash| format!("{hash:#018x}"))
 }

@@ -3,7 +3,7 @@
 use carom::bodies::Bodies;
 use carom::contact::Surface;
 use carom::engine::Compiled;
-use carom::observe::{AngularMomentum, Energy, Momentum, total_mass};
+use carom::observe::{AngularMomentum, Energy, Momentum, fall_energy, total_mass};
 use carom::real::Real;
 use carom::scene::{SceneBuilder, Spheres};
 use carom::space::{PeriodicBox, Space};
@@ -40,10 +40,12 @@ fn drift<T: Compiled>(scene: SceneBuilder<T>, collisions: u64, longest: f64) -> 
     let is_periodic = scene.periodic.is_some();
     let is_walled = !scene.surroundings.is_empty();
     let (gravity, before) = (scene.gravity, scene.bodies.clone());
+    let fall = fall_energy(&scene);
     let mut world = world(scene);
     world.advance_until(collisions, longest).unwrap();
     let after = world.bodies();
-    let energy = Energy::of(&after, gravity).relative_change(&Energy::of(&before, gravity)).abs();
+    let [first, last] = [&before, &after].map(|bodies| Energy::of(bodies, gravity));
+    let energy = last.relative_change(&first, fall).abs();
     let speed = (2.0 * Energy::of(&before, gravity).kinetic() / total_mass(&before)).sqrt();
     let scale = total_mass(&before) * speed;
     let mut momentum = (Momentum::of(&after).0 - Momentum::of(&before).0).length() / scale;

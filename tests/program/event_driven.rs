@@ -192,7 +192,12 @@ fn motion_that_leaves_the_numbers_is_told() {
     let fast = format!("{top}precision = \"f32\"\n{stone}{ball}velocity = [0, 3e19, 0]\n");
     let faster = fast.replace("3e19", "3e38");
     let falling = format!("{top}gravity = [0, 0, 1e200]\n{ball}");
-    assert_eq!(collisions(&Folder::with(&fast).says("run scene.toml --json").summary()), [0, 0]);
+    assert_eq!(
+        collisions(
+            &Folder::with(&fast.replace("1e9", "1e-18")).says("run scene.toml --json").summary()
+        ),
+        [0, 0]
+    );
     for (scene, words) in [(faster, "range of numbers"), (falling, "no longer finite")] {
         let folder = Folder::with(&scene);
         let message = folder.says("run scene.toml --state state.csv").fails_with(1);

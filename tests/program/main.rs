@@ -1,8 +1,11 @@
 //! The program from outside: what it prints, what it writes, what it refuses.
 
 mod bad_input;
+mod ends;
 mod event_driven;
 mod files;
+mod sound;
+mod states;
 mod streams;
 mod study;
 mod summary;

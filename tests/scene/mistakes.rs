@@ -102,8 +102,10 @@ fn values_out_of_range() {
         "s.toml:4: spheres[0].radius is 1e-50; a radius must be finite and greater than 0 in f32",
     );
     assert_starts(
-        &message_in::<f32>("[[spheres]]\nposition = [0, 0, 0]\nradius = 1e-25"),
-        "s.toml:2: spheres[0] is such that the moment of inertia of body 0 is 0.0 in f32; ",
+        &message_in::<f32>(
+            "surface.kind = \"rough\"\n[[spheres]]\nposition = [0, 0, 0]\nradius = 1e-25",
+        ),
+        "s.toml:3: spheres[0] is such that the moment of inertia of body 0 is 0.0 in f32; ",
     );
     assert_starts(
         &message("[[spheres]]\nposition = [0, 0, 0]\nradius = [2, 1]"),

@@ -5,6 +5,7 @@ use carom::DoubleDouble;
 use carom::contact::Surface;
 use carom::engine::{Compiled, Execution, World};
 use carom::lane::Lane;
+use carom::observe::fall_energy;
 use carom::real::Real;
 use carom::scene::EngineKind;
 use carom::scene::{Scene, SceneFile, Sphere, builtin_scenes};
@@ -188,7 +189,7 @@ fn built_in_scenes_agree_with_f64() {
             };
             let truth = state::<DoubleDouble>(&file, duration);
             let scene = file.build::<DoubleDouble>().unwrap();
-            let truth = Truth::of(&truth, scene.gravity, scene.periodic);
+            let truth = Truth::of(&truth, scene.gravity, scene.periodic, fall_energy(&scene));
             let world = state::<f64>(&file, duration);
             let deviation = truth.deviation(&world.bodies());
             println!(

@@ -7,11 +7,10 @@ use std::sync::Mutex;
 use carom::study::{Folder, Watch};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
+use crate::cli::interrupt::last_words;
+
 /// Seconds from which the length of a study is announced.
 const LONG: f64 = 10.0;
-
-/// What a shell reports for a program ended by Ctrl-C.
-const INTERRUPTED: i32 = 130;
 
 /// Shows on standard error how far a study is.
 pub struct Teller {
@@ -22,11 +21,7 @@ impl Teller {
     /// For a study whose points go into this folder.
     pub fn new(folder: &Folder) -> Self {
         let path = folder.path().display().to_string();
-        // Without a handler the points are kept too, without the message.
-        let _ = ctrlc::set_handler(move || {
-            eprintln!("\ninterrupted; the finished points are in {path}: start again to go on");
-            std::process::exit(INTERRUPTED);
-        });
+        last_words(format!("interrupted; the finished points are in {path}: start again to go on"));
         Self { bar: Mutex::new(None) }
     }
 }

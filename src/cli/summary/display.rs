@@ -53,11 +53,19 @@ impl Summary {
                 grouped(self.collisions.surroundings)
             ),
         );
+        // Only where it is a part that a person would ask about.
+        let is_slow = self.setup_seconds > 0.1 && self.setup_seconds > 0.1 * self.wall_seconds;
+        let setup = if is_slow {
+            format!(", {} of it set-up,", seconds(self.setup_seconds))
+        } else {
+            String::new()
+        };
         line(
             "  run in",
             format!(
-                "{} on {} with {}",
+                "{}{} on {} with {}",
                 seconds(self.wall_seconds),
+                setup,
                 counted(self.setup.threads as u64, "thread"),
                 counted(self.setup.lanes as u64, "lane")
             ),

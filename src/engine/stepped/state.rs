@@ -5,7 +5,7 @@ use crate::bodies::{Bodies, Columns3, PerBody, at};
 use crate::column::Column;
 use crate::engine::plan::{Plan, Turning};
 use crate::mat3::Mat3;
-use crate::motion::flight::{Wrap, compensated_sum};
+use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::scene::{Impact, Summation};
@@ -120,16 +120,16 @@ impl<T: Real> State<T> {
         self.index = index;
     }
 
-    /// Moves the body in a slot, within its space.
+    /// Moves the body in a slot, within its space. Where it has collided its place is
+    /// that of its surface at rounding: nothing is left out.
     #[inline]
     pub fn shift(&mut self, slot: usize, way: Vec3<T>, periodic: Option<PeriodicBox<T>>) {
         let mut position = at(&self.position, slot);
         match &mut self.low {
             None => position += way,
             Some(low) => {
-                let rest;
-                (position, rest) = compensated_sum(position, at(&low.position, slot), way);
-                put(&mut low.position, slot, rest);
+                position += way + at(&low.position, slot);
+                put(&mut low.position, slot, Vec3::ZERO);
             }
         }
         let position = periodic.map_or(position, |space| space.wrap(position));

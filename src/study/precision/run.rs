@@ -6,7 +6,7 @@ use super::order::Seen;
 use crate::bodies::Bodies;
 use crate::engine::{Compiled, Event, Execution, Listener, World};
 use crate::lane::Lane;
-use crate::observe::Temperature;
+use crate::observe::{Temperature, fall_energy};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::EngineKind;
 use crate::scene::{Encounters, SceneFile};
@@ -66,6 +66,8 @@ pub(super) struct Run<T: Real> {
     pub(super) gravity: Vec3<DoubleDouble>,
     /// The periodic box, if there is one.
     pub(super) periodic: Option<PeriodicBox<T>>,
+    /// The potential energy that bodies can fall through.
+    pub(super) fall: f64,
     /// The greatest radius, length.
     pub(super) radius: f64,
     /// Whether a body can meet something fixed.
@@ -94,6 +96,7 @@ impl<T: Compiled> Run<T> {
             (0..scene.bodies.len()).map(|index| scene.bodies.mass.of(index).cast::<DoubleDouble>());
         let mass = masses.fold(DoubleDouble::ZERO, |sum, mass| sum + mass);
         let start = Invariants::of(&scene.bodies, gravity);
+        let fall = fall_energy(&scene);
         // Other runs are made at the same time.
         let world = World::new(scene, Execution { threads: 1, ..Execution::default() })?;
         let course = Course::new(&world, duration);
@@ -105,6 +108,7 @@ impl<T: Compiled> Run<T> {
             mass,
             gravity,
             periodic,
+            fall,
             radius,
             has_surroundings,
         })
@@ -156,7 +160,7 @@ impl<T: Compiled> Run<T> {
             time,
             collisions: collisions.total(),
             ends,
-            drift: now.change_since(&self.start).map(finite),
+            drift: now.change_since(&self.start, self.fall).map(finite),
             translational: temperature.and_then(|gas| finite(gas.translational)),
             rotational: temperature.and_then(|gas| finite(gas.rotational)),
             virial: finite(self.world.virial()).unwrap_or(0.0),

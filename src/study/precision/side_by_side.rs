@@ -110,7 +110,7 @@ impl SideBySide {
             seen.clear();
             let is_needed = !(single.comparer.is_done() && double.comparer.is_done());
             run.advance(point, is_needed.then_some(&mut seen))?;
-            let now = Truth::of(run.world(), run.gravity, run.periodic);
+            let now = Truth::of(run.world(), run.gravity, run.periodic, run.fall);
             truth.samples.push(run.sample(&now.bodies));
             for index in 0..bodies {
                 let position = now.bodies.position_of(index).cast::<f64>().to_array();

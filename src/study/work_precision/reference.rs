@@ -2,6 +2,7 @@
 //! known.
 
 use crate::engine::{Compiled, Execution, World};
+use crate::observe::fall_energy;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::deviation::{Deviation, LOST, Truth};
@@ -57,7 +58,8 @@ impl<T: Compiled> Run<T> {
     fn truth_at(&mut self, time: f64) -> Result<Truth<T>, StudyError> {
         let course = Course::new(&self.world, time);
         course.finish(&mut self.world, course.length(), None)?;
-        Ok(Truth::of(&self.world, self.scene.gravity, self.scene.periodic))
+        let fall = fall_energy(&self.scene);
+        Ok(Truth::of(&self.world, self.scene.gravity, self.scene.periodic, fall))
     }
 
     fn collisions(&self) -> f64 {
