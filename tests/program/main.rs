@@ -1,6 +1,7 @@
 //! The program from outside: what it prints, what it writes, what it refuses.
 
 mod bad_input;
+mod cases;
 mod ends;
 mod event_driven;
 mod files;
