@@ -77,10 +77,10 @@ fn partner<T: Real>(event: &Event<T>) -> Option<usize> {
 /// Scenes of a seed: all kinds of space and surroundings.
 fn scenes<T: Compiled>(seed: u64) -> Vec<Scene<T>> {
     let dt = [0.25, 0.375, 0.5, 0.625][seed as usize % 4];
-    let surface = if seed % 3 == 0 { Surface::Rough } else { Surface::Smooth };
+    let surface = if seed.is_multiple_of(3) { Surface::Rough } else { Surface::Smooth };
     let new = || builder::<T>(dt).surface(surface);
     let balls = |count: u64| {
-        let radius = if seed % 2 == 0 { 0.5..=0.5 } else { 0.15..=0.5 };
+        let radius = if seed.is_multiple_of(2) { 0.5..=0.5 } else { 0.15..=0.5 };
         let balls = Spheres::random(count).radius(radius).density(1.0..=2.0);
         balls.temperature(0.5).spin_temperature(0.5).seed(seed)
     };
