@@ -101,8 +101,10 @@ fn values_out_of_range() {
         &message_in::<f32>("[[spheres]]\nposition = [0, 0, 0]\nradius = 1e-50"),
         "s.toml:4: spheres[0].radius is 1e-50; a radius must be finite and greater than 0 in f32",
     );
+    // Smooth surfaces need none.
+    let rough = "[[spheres]]\nposition = [0, 0, 0]\nradius = 1e-25\n[surface]\nkind = \"rough\"\n";
     assert_starts(
-        &message_in::<f32>("[[spheres]]\nposition = [0, 0, 0]\nradius = 1e-25"),
+        &message_in::<f32>(rough),
         "s.toml:2: spheres[0] is such that the moment of inertia of body 0 is 0.0 in f32; ",
     );
     assert_starts(
