@@ -2,7 +2,7 @@
 //!
 //! Events and states become comma-separated values with all their digits, on
 //! anything that implements [`io::Write`]. With the feature `study` there is a
-//! [`WholeFile`](whole_file::WholeFile) to write into, which has its name only
+//! [`WholeFile`] to write into, which has its name only
 //! once it is whole.
 
 mod events;
