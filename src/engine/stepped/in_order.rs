@@ -53,17 +53,17 @@ pub(super) fn collide_in_order<T: Real>(
         stretch = next_stretch(setting, region, stretch);
     }
     loop {
-        find_due(setting, region, stretch);
-        if let Err(broken_off) =
-            take_due(setting, region, clock, account, record.as_deref_mut(), stretch)
-        {
-            stretch = next_stretch(setting, region, broken_off);
-        } else if stretch.until > T::ZERO {
-            let from = stretch.until;
-            stretch = next_stretch(setting, region, Stretch { from, ..stretch });
-        } else {
+        let images = further(setting, region, stretch);
+        find_due(setting, region, stretch, &images);
+        let record = record.as_deref_mut();
+        let is_whole = take_due(setting, region, clock, account, record, &mut stretch, images);
+        if is_whole && stretch.until == T::ZERO {
             break;
         }
+        if is_whole {
+            stretch.from = stretch.until;
+        }
+        stretch = next_stretch(setting, region, stretch);
     }
     region.pending.struck.clear();
 }
@@ -110,36 +110,41 @@ fn within<'a, T: Real>(
     stretch: Stretch<T>,
     further: &'a [Vec3<T>],
 ) -> WithinStep<'a, T> {
-    let (path, periodic) = (&setting.path, setting.periodic);
+    let (path, periodic) = (&setting.path, setting.periodic.as_ref());
     WithinStep { path, struck, stretch, periodic, further, is_again: false }
 }
 
 /// Finds the first contacts of all candidates in a stretch.
-fn find_due<T: Real>(setting: &Setting<T>, region: &mut Region<T>, stretch: Stretch<T>) {
-    let further = further(setting, region, stretch);
+fn find_due<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    stretch: Stretch<T>,
+    further: &[Vec3<T>],
+) {
     let (state, nearby, pending) = (&region.state, &region.nearby, &mut region.pending);
-    let detection = within(setting, &pending.struck, stretch, &further);
-    find(setting, state, nearby, detection, &mut pending.found);
+    let detection = within(setting, &pending.struck, stretch, further);
+    find(setting, state, nearby, &detection, &mut pending.found);
     pending.ahead.clear();
     for found in &pending.found {
         pending.ahead.extend_from_slice(found);
     }
-    pass_over_repeats(setting, region, stretch, &further);
+    pass_over_repeats(setting, region, stretch, further);
     let Pending { queue, ahead, struck, .. } = &mut region.pending;
     queue.begin(ahead.iter().map(|&contact| Due { contact, count: struck.count(&contact) }));
 }
 
-/// Takes the contacts of a stretch in their order. `Err` if one has made a body so
-/// fast that the candidates are no longer complete: the rest of the stretch.
+/// Takes the contacts of a stretch in their order. False if one has made a body so
+/// fast that the candidates are no longer complete: then the rest of the stretch is
+/// left.
 fn take_due<T: Real>(
     setting: &Setting<T>,
     region: &mut Region<T>,
     clock: &Clock,
     account: &mut Account,
     mut record: Option<&mut Record<T>>,
-    mut stretch: Stretch<T>,
-) -> Result<(), Stretch<T>> {
-    let mut images = further(setting, region, stretch);
+    stretch: &mut Stretch<T>,
+    mut images: Vec<Vec3<T>>,
+) -> bool {
     let field = setting.acceleration.map_or(T::ZERO, Vec3::length) * setting.dt;
     while let Some(Due { contact, count }) = region.pending.queue.take() {
         if count != region.pending.struck.count(&contact) {
@@ -161,14 +166,14 @@ fn take_due<T: Real>(
                 nearby.travelled = nearby.travelled + (speed - stretch.fastest) * setting.dt;
                 stretch.fastest = speed;
                 if !nearby.is_complete() || !is_within_box(setting, stretch.way()) {
-                    return Err(stretch);
+                    return false;
                 }
-                images = further(setting, region, stretch);
+                images = further(setting, region, *stretch);
             }
         }
-        look_ahead(setting, region, &contact, stretch, &images);
+        look_ahead(setting, region, &contact, *stretch, &images);
     }
-    Ok(())
+    true
 }
 
 /// Finds what the bodies of a contact meet on their new paths.
@@ -195,7 +200,7 @@ fn look_ahead<T: Real>(
     near.fill_up(setting.plan.gather_lanes, [contact.a; 2]);
     let detection = within(setting, &pending.struck, stretch, further);
     pending.ahead.clear();
-    search_chunk(setting, state, nearby, detection, near, &mut pending.ahead);
+    search_chunk(setting, state, nearby, &detection, near, &mut pending.ahead);
     pass_over_repeats(setting, region, stretch, further);
     let Pending { queue, ahead, struck, .. } = &mut region.pending;
     for &contact in &*ahead {
@@ -228,24 +233,25 @@ fn pass_over_repeats<T: Real>(
         // Through the other side of the box they may well meet.
         let detection = within(setting, struck, stretch, further);
         let detection = WithinStep { is_again: true, ..detection };
-        search_chunk(setting, state, nearby, detection, &met, ahead);
+        search_chunk(setting, state, nearby, &detection, &met, ahead);
         ahead.retain(|contact| !contact.bodies().any(|slot| struck.is_spent(slot)));
     }
 }
 
-/// The images of a pair that can touch in a stretch, in whole boxes from the
-/// nearest one at its end.
+/// The images of a pair that can touch in a stretch besides the nearest one at its
+/// end, in whole boxes from there: none but in a narrow box.
 fn further<T: Real>(setting: &Setting<T>, region: &Region<T>, stretch: Stretch<T>) -> Vec<Vec3<T>> {
-    let Some(space) = setting.periodic else { return vec![Vec3::ZERO] };
+    let Some(space) = setting.periodic else { return Vec::new() };
     let way = stretch.way();
     let greatest = region.nearby.broadphase.greatest_radius();
     let reach = greatest + greatest + way + way;
     let along = |side: T| if reach + reach < side { 0..=0 } else { -1..=1 };
     let [x, y, z] = space.sides().to_array();
     let mut further = Vec::new();
-    for z in along(z).map(T::whole) {
-        for y in along(y).map(T::whole) {
-            further.extend(along(x).map(|x| Vec3::new(T::whole(x), y, z)));
+    for z in along(z) {
+        for y in along(y) {
+            let row = along(x).filter(|&x| [x, y, z] != [0; 3]);
+            further.extend(row.map(|x| Vec3::new(T::whole(x), T::whole(y), T::whole(z))));
         }
     }
     further

@@ -83,7 +83,7 @@ pub(super) struct WithinStep<'a, T: Real> {
     pub struck: &'a Struck<T>,
     /// The part of the step that is looked at.
     pub stretch: Stretch<T>,
-    pub periodic: Option<PeriodicBox<T>>,
+    pub periodic: Option<&'a PeriodicBox<T>>,
     /// Which images of a pair can be near, besides the nearest at the end of the
     /// stretch, in whole boxes from there.
     pub further: &'a [Vec3<T>],
@@ -91,7 +91,8 @@ pub(super) struct WithinStep<'a, T: Real> {
     pub is_again: bool,
 }
 
-impl<T: Real> Detection<T> for WithinStep<'_, T> {
+/// By reference: it is handed on for every list of candidates.
+impl<T: Real> Detection<T> for &WithinStep<'_, T> {
     #[inline(always)]
     fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
         self,
@@ -111,7 +112,7 @@ impl<T: Real> Detection<T> for WithinStep<'_, T> {
         let turns = space.turns(offset - back);
         let mut touching = L::ZERO.lt(L::ZERO);
         let mut first = L::ZERO;
-        for &further in self.further {
+        for further in core::iter::once(Vec3::ZERO).chain(self.further.iter().copied()) {
             let offset = offset - space.shift(turns + Vec3::splat(further));
             let is_near = (offset - back).length_squared().le(swept * swept);
             if !is_near.any() {
@@ -147,9 +148,11 @@ impl<T: Real> Detection<T> for WithinStep<'_, T> {
     ) -> (L::Mask, L) {
         let Stretch { until, .. } = self.stretch;
         let way = L::splat(self.stretch.way());
-        let velocity = self.path.end_velocity(gather::<L>(&state.velocity, bodies));
-        let end = gather::<L>(&state.position, bodies);
-        let mut center = self.path.center(end, velocity, L::splat(until));
+        let mut center = gather::<L>(&state.position, bodies);
+        if until > T::ZERO {
+            let velocity = self.path.end_velocity(gather::<L>(&state.velocity, bodies));
+            center = self.path.center(center, velocity, L::splat(until));
+        }
         let mut is_near = L::ZERO.lt(L::ZERO);
         if let Some(space) = self.periodic {
             // From beyond a face of the box it may meet another image.
