@@ -31,6 +31,16 @@ pub struct Effort {
     pub searches: u64,
 }
 
+/// What collisions have added up to.
+#[derive(Clone, Copy, Debug)]
+pub struct Totals {
+    pub collisions: Collisions,
+    /// `Σ J_n·x` over pairs, mass × length² per time.
+    pub virial: f64,
+    /// `Σ J` over the surroundings, mass × length per time.
+    pub impulse: [f64; 3],
+}
+
 /// Counts and sums over the collisions so far, in the order in which they took
 /// effect, which no worker decides. A restart file keeps all of it.
 #[derive(Clone, Debug, Default)]
@@ -73,13 +83,12 @@ impl Account {
         self.path.value()
     }
 
-    /// `Σ J_n·x` over pairs, mass × length² per time.
-    pub fn virial(&self) -> f64 {
-        self.virial.value()
-    }
-
-    /// `Σ J` over the surroundings, mass × length per time.
-    pub fn impulse(&self) -> [f64; 3] {
-        self.impulse.each_ref().map(CompensatedSum::value)
+    /// What is added up so far.
+    pub fn totals(&self) -> Totals {
+        Totals {
+            collisions: self.collisions,
+            virial: self.virial.value(),
+            impulse: self.impulse.each_ref().map(CompensatedSum::value),
+        }
     }
 }

@@ -284,7 +284,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
-        self.engine.collisions()
+        self.engine.totals().collisions
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the
@@ -301,7 +301,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
-        self.engine.impulse()
+        self.engine.totals().impulse
     }
 
     /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
@@ -319,7 +319,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
-        self.engine.virial()
+        self.engine.totals().virial
     }
 
     /// Mean length of the flights between collisions, those under way counted

@@ -6,9 +6,9 @@
 //! by a vector that rounds no coordinate, and scaled by powers of two. What comes out is
 //! moved and scaled back. All other scenes are computed as they are.
 
-use super::account::Effort;
+use super::account::{Effort, Totals};
 use super::interface::{Engine, EventEngine, StepEngine};
-use super::{Collisions, EngineError, Event, Listener, Partner, Plan};
+use super::{EngineError, Event, Listener, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
 use crate::compensated::two_sum;
@@ -157,38 +157,36 @@ fn origin<T: Real>(scene: &Scene<T>) -> Vec3<T> {
     let mut origin = [T::ZERO; 3];
     let radius = scene.bodies.radius.greatest();
     for (axis, origin) in origin.iter_mut().enumerate() {
-        let along = |point: Vec3<T>| point.to_array()[axis];
-        let mut coordinates: Vec<T> = scene.bodies.position[axis].to_vec();
-        if let Some(PeriodicBox { lower, upper }) = scene.periodic {
-            coordinates.extend([along(lower), along(upper)]);
-        }
-        for shape in &scene.surroundings {
-            coordinates.extend(shape.points().into_iter().map(along));
-        }
-        let Some(&first) = coordinates.first() else { return Vec3::ZERO };
-        let [least, greatest] = coordinates
-            .iter()
-            .fold([first; 2], |[least, greatest], &x| [least.lesser(x), greatest.greater(x)]);
+        let points: Vec<Vec3<T>> = scene
+            .periodic
+            .map_or(Vec::new(), |PeriodicBox { lower, upper }| vec![lower, upper])
+            .into_iter()
+            .chain(scene.surroundings.iter().flat_map(|shape| shape.points()))
+            .collect();
+        let points = points.iter().map(|point| point.to_array()[axis]);
+        let coordinates = || scene.bodies.position[axis].iter().copied().chain(points.clone());
+        let Some([least, greatest]) = ends(coordinates()) else { return Vec3::ZERO };
         let nearest = least.abs().lesser(greatest.abs());
         let is_far = nearest > T::whole(FAR) * ((greatest - least) + radius)
             && (least > T::ZERO) == (greatest > T::ZERO);
-        let is_exact = |&x: &T| two_sum(x, -least).1 == T::ZERO;
-        if is_far && coordinates.iter().all(is_exact) {
+        if is_far && coordinates().all(|x| two_sum(x, -least).1 == T::ZERO) {
             *origin = least;
         }
     }
     origin.into()
 }
 
+/// The least and the greatest of some coordinates.
+fn ends<T: Real>(coordinates: impl Iterator<Item = T>) -> Option<[T; 2]> {
+    let pairs = coordinates.map(|x| [x, x]);
+    pairs.reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)])
+}
+
 /// The longest side of the box around all centres, length.
 fn extent<T: Real>(scene: &Scene<T>) -> f64 {
-    let side = |column: &Column<T>| {
-        let ends = column.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-            [low.min(x.to_f64()), high.max(x.to_f64())]
-        });
-        ends[1] - ends[0]
-    };
-    scene.bodies.position.iter().map(side).fold(0.0, f64::max)
+    let columns = scene.bodies.position.iter();
+    let ends = columns.filter_map(|column| ends(column.iter().copied()));
+    ends.map(|[least, greatest]| greatest.to_f64() - least.to_f64()).fold(0.0, f64::max)
 }
 
 /// The binary exponent of a figure if it is far from 1, otherwise 0.
@@ -254,18 +252,14 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
         self.engine.time() * power(self.frame.time)
     }
 
-    fn collisions(&self) -> Collisions {
-        self.engine.collisions()
-    }
-
-    fn virial(&self) -> f64 {
+    fn totals(&self) -> Totals {
         let Frame { length, time, mass, .. } = self.frame;
-        self.engine.virial() * power(mass + 2 * length - time)
-    }
-
-    fn impulse(&self) -> [f64; 3] {
-        let Frame { length, time, mass, .. } = self.frame;
-        self.engine.impulse().map(|impulse| impulse * power(mass + length - time))
+        let Totals { collisions, virial, impulse } = self.engine.totals();
+        Totals {
+            collisions,
+            virial: virial * power(mass + 2 * length - time),
+            impulse: impulse.map(|impulse| impulse * power(mass + length - time)),
+        }
     }
 
     fn bodies(&self) -> Bodies<T> {

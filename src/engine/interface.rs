@@ -5,8 +5,8 @@
 
 use core::fmt::Debug;
 
-use super::account::Effort;
-use super::{Collisions, EngineError, Listener, Plan};
+use super::account::{Effort, Totals};
+use super::{EngineError, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -22,14 +22,8 @@ pub trait Engine<T: Real>: Debug + Send + Sync {
     /// Time since the start.
     fn time(&self) -> f64;
 
-    /// Collisions so far.
-    fn collisions(&self) -> Collisions;
-
-    /// `Σ J_n·x` over the collisions of pairs so far, mass × length² per time.
-    fn virial(&self) -> f64;
-
-    /// The impulse of the surroundings on the bodies so far, mass × length per time.
-    fn impulse(&self) -> [f64; 3];
+    /// What is added up over the collisions so far.
+    fn totals(&self) -> Totals;
 
     /// The bodies now, in the scene's order.
     fn bodies(&self) -> Bodies<T>;

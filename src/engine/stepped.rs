@@ -323,7 +323,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn collisions(&self) -> Collisions {
-        self.engine.collisions()
+        self.engine.totals().collisions
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the
@@ -340,7 +340,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn impulse_from_surroundings(&self) -> [f64; 3] {
-        self.engine.impulse()
+        self.engine.totals().impulse
     }
 
     /// `Σ J_n·(c_a − c_b)` over all collisions of pairs since the start, mass ×
@@ -358,7 +358,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn virial(&self) -> f64 {
-        self.engine.virial()
+        self.engine.totals().virial
     }
 
     /// The bytes of memory that the engine holds.

@@ -73,7 +73,7 @@ pub enum Unresolved {
         body: usize,
         /// By how much it turns, rad.
         angle: f64,
-        /// Up to where angles are told apart, rad.
+        /// Up to where angles can be distinguished, rad.
         greatest: f64,
         /// The precision.
         precision: &'static str,

@@ -163,7 +163,7 @@ impl SceneFile {
                 None => EngineKind::EventDriven,
             }),
             duration: number(raw.duration),
-            dt: number(raw.stepped.as_ref().and_then(|stepped| stepped.dt)),
+            dt: number(raw.dt()),
             seed: raw.seed.map_or(0, |Whole(seed)| seed),
             path: name.to_owned(),
             folder: PathBuf::new(),
@@ -355,7 +355,7 @@ impl SceneFile {
         if bits(self.duration) != bits(number(self.raw.duration)) {
             origin.overridden("duration", "--duration");
         }
-        if bits(self.dt) != bits(number(self.raw.stepped.as_ref().and_then(|stepped| stepped.dt))) {
+        if bits(self.dt) != bits(number(self.raw.dt())) {
             origin.overridden("stepped.dt", "--dt");
         }
         origin

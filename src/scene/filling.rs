@@ -109,9 +109,7 @@ impl<T: Real> Filling<T> {
         figures: &Figures,
         seed: Seed,
     ) -> Columns3<T> {
-        let mut columns = core::array::from_fn(|_| Column::new(count, T::ZERO));
-        velocities(count, spheres, figures, seed, |k, velocity| set(&mut columns, k, velocity));
-        columns
+        drawn(count, |take| velocities(count, spheres, figures, seed, take))
     }
 
     /// The spins with which a group of its own starts.
@@ -122,9 +120,7 @@ impl<T: Real> Filling<T> {
         figures: &Figures,
         seed: Seed,
     ) -> Columns3<T> {
-        let mut columns = core::array::from_fn(|_| Column::new(count, T::ZERO));
-        spins(count, spheres, figures, seed, |k, spin| set(&mut columns, k, spin));
-        columns
+        drawn(count, |take| spins(count, spheres, figures, seed, take))
     }
 
     pub(super) fn copy(&mut self, start: usize, bodies: &Bodies<T>) {
@@ -162,6 +158,14 @@ impl<T: Real> Filling<T> {
             inertia: self.inertia.into_values(),
         }
     }
+}
+
+/// Columns of `count` vectors that a function gives one by one.
+#[cfg(feature = "files")]
+fn drawn<T: Real>(count: usize, draw: impl FnOnce(&mut dyn FnMut(usize, [f64; 3]))) -> Columns3<T> {
+    let mut columns = core::array::from_fn(|_| Column::new(count, T::ZERO));
+    draw(&mut |k, vector| set(&mut columns, k, vector));
+    columns
 }
 
 /// Draws the velocities of a group.

@@ -35,6 +35,13 @@ pub(super) struct RawScene {
     pub(super) spheres: Vec<RawSpheres>,
 }
 
+impl RawScene {
+    /// `stepped.dt`.
+    pub(super) fn dt(&self) -> Option<Number> {
+        self.stepped.as_ref().and_then(|stepped| stepped.dt)
+    }
+}
+
 /// `[stepped]`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -36,7 +36,7 @@ const FIRST_DENSITY: f64 = 0.2;
 const FIRST_SKIN: f64 = 0.5;
 
 /// The widest skin for what may have met within a step: as many neighbours as a
-/// body may have in it, but no less than so many mean diameters; and how many
+/// body may have in it, but no less than this number of mean diameters; and how many
 /// bodies do not need it: that few can all be candidates of each other.
 const MOST_NEIGHBOURS: f64 = 128.0;
 const LEAST_SWEPT: f64 = 4.0;

@@ -89,7 +89,7 @@ fn a_hangup_that_is_to_be_ignored_is() {
     assert_eq!(child.wait().unwrap().code(), Some(143));
 }
 
-/// What a killed run leaves is told apart by its process, and removed by the next
+/// What a killed run leaves is known by its process, and removed by the next
 /// one that writes there. One that is under way keeps its own.
 #[test]
 fn what_killed_runs_leave_is_removed() {

@@ -54,7 +54,7 @@ fn what_is_not_finite_is_no_result() {
     fails(&pair, "", 1, &["the orientation of body 1"]);
 }
 
-/// An angle without a digit is told, whether it comes out as a number or not.
+/// An angle without a digit gives a warning, whether it comes out as a number or not.
 #[test]
 fn angles_and_places_beyond_the_precision_are_told() {
     let said = says(&spinning(1e15, 1e15, "engine = \"event-driven\""), "");

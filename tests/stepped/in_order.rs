@@ -21,7 +21,7 @@ fn builder<T: Compiled>(dt: f64) -> SceneBuilder<T> {
     Scene::<T>::builder().impact(Impact::SubStep).integrator(Integrator::VelocityVerlet).dt(dt)
 }
 
-/// Runs both engines for so many steps and compares collisions as long as an error
+/// Runs both engines for a number of steps and compares collisions as long as an error
 /// of rounding has not grown to `1/64`; returns how many are equal and the greatest
 /// difference of time, in units of what rounding explains.
 ///
@@ -193,7 +193,7 @@ fn a_third_ball_comes_between_a_pair_in_one_step() {
 }
 
 /// A ball at speed 50 is stopped by what is thinner than a step's way, alone and
-/// among so many that candidates are searched with a narrow skin.
+/// among enough that candidates are searched with a narrow skin.
 #[test]
 fn thin_parts_are_not_passed_through() {
     fn thrown<T: Compiled>(aside: f64, part: usize, others: bool, start: f64) -> (u64, f64) {

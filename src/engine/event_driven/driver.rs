@@ -8,10 +8,10 @@ use super::turns::{next_turn, take_turn};
 use crate::bodies::Bodies;
 use crate::column::Column;
 use crate::compensated::CompensatedSum;
-use crate::engine::account::{Account, Effort};
+use crate::engine::account::{Account, Effort, Totals};
 use crate::engine::interface::{Engine, EventEngine};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{Collisions, EngineError, Execution, Listener};
+use crate::engine::{EngineError, Execution, Listener};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
@@ -137,16 +137,8 @@ impl<T: Real> Engine<T> for Driver<T> {
         self.clock.time
     }
 
-    fn collisions(&self) -> Collisions {
-        self.account.collisions
-    }
-
-    fn virial(&self) -> f64 {
-        self.account.virial()
-    }
-
-    fn impulse(&self) -> [f64; 3] {
-        self.account.impulse()
+    fn totals(&self) -> Totals {
+        self.account.totals()
     }
 
     fn bodies(&self) -> Bodies<T> {

@@ -78,13 +78,6 @@ impl Lists {
 }
 
 impl Near {
-    /// All features, near everywhere.
-    pub fn everywhere_of(features: usize) -> Self {
-        let everywhere =
-            (0..features).map(|feature| Image { feature: feature as u32, image: 0 }).collect();
-        Self { everywhere, ..Self::default() }
-    }
-
     /// Finds the features near each cell, for bodies of up to `radius`.
     pub fn new<T: Real>(
         features: &[Feature<T>],

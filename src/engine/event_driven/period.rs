@@ -18,7 +18,6 @@ use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::space::Space;
-use crate::vec3::Vec3;
 
 /// How far bodies fly in a period, in mean distances, at the mean speed.
 const FLIGHT: f64 = 8.0;
@@ -172,14 +171,17 @@ fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -
 
 /// Sorts the bodies by cell: neighbours in space become neighbours in memory.
 fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
-    let starts: Vec<Vec3<T>> =
-        (0..region.records.len()).map(|slot| region.state_of(setting, slot, T::ZERO).0).collect();
     let cells = &mut region.cells;
     cells.clear();
+    let cells = cells.finest();
+    // A flight may have started before the period.
+    let cell_of = |record: &Record<T>| {
+        let (position, _) = setting.state_of(&record.flight(), T::ZERO);
+        cells.cell_of(position)
+    };
     let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(region.records.len());
-    for (slot, &start) in starts.iter().enumerate() {
-        let cell = cells.finest().cell_of(start);
-        order.push((cells.finest().number_of(cell), region.index[slot], slot as u32));
+    for (slot, record) in region.records.iter().enumerate() {
+        order.push((cells.number_of(cell_of(record)), region.index[slot], slot as u32));
     }
     order.sort_unstable();
     region.records = reordered(&region.records, &order);
@@ -189,8 +191,7 @@ fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
         region.turned = reordered(&region.turned, &order);
     }
     region.marks = reordered(&region.marks, &order);
-    let agenda = |start: Vec3<T>| Agenda::new(cells.finest().cell_of(start));
-    region.agendas = reordered(&starts, &order).into_iter().map(agenda).collect();
+    region.agendas = region.records.iter().map(|record| Agenda::new(cell_of(record))).collect();
     if setting.plan.has_pairs {
         for (slot, agenda) in region.agendas.iter().enumerate() {
             let level = region.level_of(slot);

@@ -78,18 +78,16 @@ impl<T: Real> Setting<T> {
         // Each image of a solid without end would be near everywhere.
         let can_fold = !is_periodic || bounded == features.len();
         let is_few = !is_periodic && len + features.len() <= FEW;
-        let cells = if is_few { Some(Levels::whole(grid, radius)) } else { None };
-        let cells = cells.or_else(|| {
-            can_fold
-                .then(|| fitting(grid.folded(least, radius + radius, &bodies.position)))
-                .filter(|cells| cells.finest().can_number(&grid))
-        });
-        let cells = cells.unwrap_or_else(|| fitting(grid));
-        let near = if is_few {
-            Near::everywhere_of(features.len())
-        } else {
-            Near::new(&features, &images, cells.finest(), radius)
+        let folded = || {
+            let cells = fitting(grid.folded(least, radius + radius, &bodies.position));
+            cells.finest().can_number(&grid).then_some(cells)
         };
+        let cells = match () {
+            () if is_few => Levels::whole(grid, radius),
+            () if can_fold => folded().unwrap_or_else(|| fitting(grid)),
+            () => fitting(grid),
+        };
+        let near = Near::new(&features, &images, cells.finest(), radius);
         let setting = Self {
             gravity: scene.gravity,
             periodic: scene.periodic,

@@ -11,10 +11,10 @@ use super::region::Region;
 use super::resolve::resolve;
 use super::setting::Setting;
 use crate::bodies::Bodies;
-use crate::engine::account::Account;
+use crate::engine::account::{Account, Totals};
 use crate::engine::interface::{Engine, StepEngine};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{Collisions, EngineError, Execution, Listener};
+use crate::engine::{EngineError, Execution, Listener};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -117,16 +117,8 @@ impl<T: Real> Engine<T> for Driver<T> {
         self.clock.time(self.setting.exact_dt)
     }
 
-    fn collisions(&self) -> Collisions {
-        self.account.collisions
-    }
-
-    fn virial(&self) -> f64 {
-        self.account.virial()
-    }
-
-    fn impulse(&self) -> [f64; 3] {
-        self.account.impulse()
+    fn totals(&self) -> Totals {
+        self.account.totals()
     }
 
     fn bodies(&self) -> Bodies<T> {

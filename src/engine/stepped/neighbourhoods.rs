@@ -29,7 +29,7 @@ impl Neighbourhoods {
         self.is_known = false;
     }
 
-    /// Knows the candidates of so many bodies.
+    /// Knows the candidates of this many bodies.
     pub fn know(&mut self, candidates: &Candidates, len: usize) {
         if self.is_known {
             return;

@@ -37,7 +37,7 @@ impl<T: Real> Grid<T> {
     }
 
     /// A grid that divides a periodic box into cells of at least `side`. No more than
-    /// `most` of them are told apart: the box is a whole number of grids wide.
+    /// `most` of them have indices of their own: the box is a whole number of grids wide.
     pub fn periodic(space: &PeriodicBox<T>, side: T, most: usize) -> Self {
         let sides = space.sides().to_array();
         let wanted = sides.map(|length| along(length, side).max(1));

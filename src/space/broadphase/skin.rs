@@ -11,7 +11,7 @@ const SEARCH_PER_NEIGHBOUR: f64 = 5.0;
 const TEST_PER_NEIGHBOUR: f64 = 1.5;
 
 /// How many pairs each body is in, each counted once, whose gaps are below the
-/// skin, in diameters, at a density of so many bodies a diameter cubed.
+/// skin, in diameters, at a density in bodies a diameter cubed.
 pub(super) fn neighbours(density: f64, skin: f64) -> f64 {
     density * (2.0 / 3.0 * core::f64::consts::PI * (1.0 + skin).powi(3))
 }
