@@ -46,8 +46,8 @@ units() {
             gsub(/[^0-9.]/, "", $3)
             printf "%08.1f\t%s%s\n", $3, name, target
         }' "$CARGO_TARGET_DIR/cargo-timings/cargo-timing.html" |
-        sort -r | head -n "$1" |
-        awk -F'\t' '{ printf "| %s | %.1f |\n", $2, $1 }'
+        sort -r |
+        awk -F'\t' -v most="$1" 'NR <= most { printf "| %s | %.1f |\n", $2, $1 }'
 }
 
 printf '| what | wait |\n|---|---|\n'
