@@ -75,6 +75,50 @@ impl fmt::Display for Lanes {
     }
 }
 
+/// In which order the event-driven engine works collisions off. It changes no bit of the
+/// result.
+///
+/// ```
+/// use carom::{Execution, Order};
+/// assert_eq!(Execution::new().order(Order::Strict).order.name(), "strict");
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum Order {
+    /// Whichever is faster.
+    #[default]
+    Auto,
+    /// One after the other in time.
+    Strict,
+    /// Window after window of time, in each block after block of neighbours, on all
+    /// threads; what turns out to be too early is taken back.
+    Windows,
+}
+
+impl Order {
+    /// What the program calls it.
+    ///
+    /// ```
+    /// use carom::Order;
+    /// assert_eq!((Order::Auto.name(), Order::Windows.name()), ("auto", "windows"));
+    /// ```
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Strict => "strict",
+            Self::Windows => "windows",
+        }
+    }
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
 /// The most worker threads that the program and the studies ask for.
 ///
 /// ```
@@ -104,6 +148,9 @@ pub struct Execution {
     pub lanes: Lanes,
     /// Worker threads; 0 takes all cores.
     pub threads: usize,
+    /// The order of the event-driven engine.
+    #[cfg_attr(feature = "files", serde(default))]
+    pub order: Order,
 }
 
 impl Execution {
@@ -116,7 +163,7 @@ impl Execution {
     /// ```
     #[must_use]
     pub const fn new() -> Self {
-        Self { lanes: Lanes::Auto, threads: 0 }
+        Self { lanes: Lanes::Auto, threads: 0, order: Order::Auto }
     }
 
     /// How many reals a kernel works on at once.
@@ -130,6 +177,13 @@ impl Execution {
     #[must_use]
     pub const fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;
+        self
+    }
+
+    /// The order of the event-driven engine.
+    #[must_use]
+    pub const fn order(mut self, order: Order) -> Self {
+        self.order = order;
         self
     }
 }

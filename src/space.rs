@@ -36,6 +36,7 @@ pub(crate) mod neighbours;
 mod noise;
 mod parts;
 mod periodic;
+pub(crate) mod pieces;
 mod sizes;
 mod tree;
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use carom::engine::{Execution, Lanes, MOST_THREADS};
+use carom::engine::{Execution, Lanes, MOST_THREADS, Order};
 use carom::scene::EngineKind;
 use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -110,13 +110,19 @@ pub struct SceneArguments {
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub duration: Option<f64>,
 
-    /// Worker threads of the stepped engine [default: one for each core]
+    /// Worker threads [default: one for each core]
     #[arg(long, value_name = "N", value_parser = threads(), allow_negative_numbers = true)]
     pub threads: Option<u64>,
 
     /// How many numbers to work on at once
     #[arg(long, value_name = "N", value_parser = one_of(&LANES), default_value = "auto")]
     pub lanes: Option<Lanes>,
+
+    /// The order in which the event-driven engine works collisions off: one after the
+    /// other in time, or in windows of time, block by block and on all threads; the
+    /// result is the same
+    #[arg(long, value_parser = one_of(&ORDERS), default_value = "auto")]
+    pub order: Option<Order>,
 
     /// Seed of the scene's random numbers
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -148,6 +154,7 @@ impl SceneArguments {
         Execution::new()
             .lanes(self.lanes.unwrap_or_default())
             .threads(self.threads.map_or(0, |threads| threads as usize))
+            .order(self.order.unwrap_or_default())
     }
 }
 
@@ -155,6 +162,9 @@ pub const PRECISIONS: [(&str, Precision); 2] = [("f32", Precision::F32), ("f64",
 
 pub const ENGINES: [(&str, EngineKind); 2] =
     [("stepped", EngineKind::Stepped), ("event-driven", EngineKind::EventDriven)];
+
+pub const ORDERS: [(&str, Order); 3] =
+    [("auto", Order::Auto), ("strict", Order::Strict), ("windows", Order::Windows)];
 
 pub const LANES: [(&str, Lanes); 5] = [
     ("scalar", Lanes::Scalar),

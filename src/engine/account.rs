@@ -1,7 +1,7 @@
 //! Account: what is added up over all collisions.
 
 use super::Collisions;
-use crate::compensated::CompensatedSum;
+use crate::compensated::ExactSum;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -29,6 +29,16 @@ pub struct Effort {
     /// How often a body's contacts were looked for again, since all that it
     /// knew of had been overtaken.
     pub searches: u64,
+    /// Collisions that were taken back, since an earlier one was found: of the order of
+    /// windows only.
+    pub undone: u64,
+}
+
+/// `J_n·x` of a collision, mass × length² per time.
+#[inline(always)]
+fn virial<T: Real>(normal: Vec3<T>, offset: Vec3<T>) -> f64 {
+    let (normal, offset) = (normal.cast::<f64>(), offset.cast::<f64>());
+    normal.dot(offset)
 }
 
 /// What collisions have added up to.
@@ -41,15 +51,16 @@ pub struct Totals {
     pub impulse: [f64; 3],
 }
 
-/// Counts and sums over the collisions so far, in the order in which they took
-/// effect, which no worker decides. A restart file keeps all of it.
+/// Counts and sums over the collisions so far. They do not depend on the order, which
+/// workers decide: what is taken back is subtracted, and what workers have added up is
+/// merged. A restart file keeps all of it.
 #[derive(Clone, Debug, Default)]
 pub struct Account {
     pub collisions: Collisions,
     pub effort: Effort,
-    virial: CompensatedSum,
-    impulse: [CompensatedSum; 3],
-    path: CompensatedSum,
+    virial: ExactSum,
+    impulse: [ExactSum; 3],
+    path: ExactSum,
 }
 
 impl Account {
@@ -58,9 +69,7 @@ impl Account {
     #[inline(always)]
     pub fn pair<T: Real>(&mut self, normal: Vec3<T>, offset: Vec3<T>) {
         self.collisions.pairs += 1;
-        for (j, x) in normal.to_array().into_iter().zip(offset.to_array()) {
-            self.virial.add(j.to_f64() * x.to_f64());
-        }
+        self.virial.add(virial(normal, offset));
     }
 
     /// Counts a collision with something fixed, by the impulse on the body.
@@ -78,6 +87,42 @@ impl Account {
         self.path.add(length.to_f64());
     }
 
+    /// Takes a collision of two bodies back, which another worker may have counted.
+    pub fn undo_pair<T: Real>(&mut self, normal: Vec3<T>, offset: Vec3<T>) {
+        self.collisions.pairs = self.collisions.pairs.wrapping_sub(1);
+        self.virial.add(-virial(normal, offset));
+    }
+
+    /// Takes a collision with something fixed back.
+    pub fn undo_surroundings<T: Real>(&mut self, impulse: Vec3<T>) {
+        self.collisions.surroundings = self.collisions.surroundings.wrapping_sub(1);
+        for (sum, j) in self.impulse.iter_mut().zip(impulse.to_array()) {
+            sum.add(-j.to_f64());
+        }
+    }
+
+    /// Takes the end of a flight back.
+    pub fn undo_flight<T: Real>(&mut self, length: T) {
+        self.path.add(-length.to_f64());
+    }
+
+    /// Adds what another worker has added up.
+    pub fn merge(&mut self, other: &Self) {
+        let add = |one: &mut u64, other: u64| *one = one.wrapping_add(other);
+        add(&mut self.collisions.pairs, other.collisions.pairs);
+        add(&mut self.collisions.surroundings, other.collisions.surroundings);
+        self.effort.tried += other.effort.tried;
+        self.effort.remaining += other.effort.remaining;
+        self.effort.crossings += other.effort.crossings;
+        self.effort.searches += other.effort.searches;
+        self.effort.undone += other.effort.undone;
+        self.virial.merge(&other.virial);
+        self.path.merge(&other.path);
+        for (sum, other) in self.impulse.iter_mut().zip(&other.impulse) {
+            sum.merge(other);
+        }
+    }
+
     /// The sum of the lengths of all flights that have ended.
     pub fn path(&self) -> f64 {
         self.path.value()
@@ -88,7 +133,7 @@ impl Account {
         Totals {
             collisions: self.collisions,
             virial: self.virial.value(),
-            impulse: self.impulse.each_ref().map(CompensatedSum::value),
+            impulse: self.impulse.each_ref().map(ExactSum::value),
         }
     }
 }

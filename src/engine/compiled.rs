@@ -35,7 +35,10 @@ pub(super) mod sealed {
     /// What makes the engines of a precision; not generic, so that it is compiled
     /// in this crate.
     pub trait Engines: Real {
-        fn event_driven(scene: Scene<Self>, execution: Execution) -> Box<dyn EventEngine<Self>>;
+        fn event_driven(
+            scene: Scene<Self>,
+            execution: Execution,
+        ) -> Result<Box<dyn EventEngine<Self>>, EngineError>;
 
         fn stepped(
             scene: Scene<Self>,
@@ -49,12 +52,15 @@ macro_rules! compile {
         impl Compiled for $real {}
 
         impl sealed::Engines for $real {
-            fn event_driven(scene: Scene<Self>, execution: Execution) -> Box<dyn EventEngine<Self>> {
+            fn event_driven(
+                scene: Scene<Self>,
+                execution: Execution,
+            ) -> Result<Box<dyn EventEngine<Self>>, EngineError> {
                 let driver = |scene| event_driven::Driver::new(scene, execution);
-                match Frame::of(&scene) {
-                    None => Box::new(driver(scene)),
-                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene)), frame }),
-                }
+                Ok(match Frame::of(&scene) {
+                    None => Box::new(driver(scene)?),
+                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
+                })
             }
 
             fn stepped(

@@ -20,16 +20,26 @@ mod crossing;
 mod driver;
 mod features;
 mod flight;
+mod history;
+mod key;
+mod log;
 mod meeting;
 mod near;
+mod order;
+mod outcome;
 mod period;
 mod region;
+mod report;
 mod search;
 mod setting;
+mod store;
+mod territories;
 mod turns;
+mod undo;
+mod window;
 
 use super::account::Effort;
-use super::interface::EventEngine;
+use super::interface::{EventEngine, Stretch};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -92,7 +102,7 @@ impl<T: Compiled> EventDriven<T> {
     /// # Errors
     /// None yet for a checked scene.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
-        Ok(Self { engine: T::event_driven(scene, execution) })
+        Ok(Self { engine: T::event_driven(scene, execution)? })
     }
 }
 
@@ -204,7 +214,39 @@ impl<T: Real> EventDriven<T> {
         on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
         self.after(time - self.time())?;
-        self.engine.advance_to(time, events, on_event)
+        let stretch = Stretch { collisions: events, is_exact: true };
+        self.engine.advance_to(time, stretch, on_event)
+    }
+
+    /// [`advance_to`](EventDriven::advance_to), but comes back where it suits the engine
+    /// after about the given number of collisions, not exactly there: to show progress,
+    /// say. A large scene is worked off in windows of time, which need not be cut.
+    ///
+    /// ```
+    /// # use carom::{Cuboid, EventDriven, Scene, Sphere};
+    /// # let scene = Scene::<f64>::builder()
+    /// #     .surroundings(Cuboid::container([0.0; 3], [2.0; 3]))
+    /// #     .sphere(Sphere::new([1.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]))
+    /// #     .build()?;
+    /// let mut world = EventDriven::new(scene)?;
+    /// while !world.advance_about(10.0, 3, None)? {
+    ///     println!("{} %", 10.0 * world.time());
+    /// }
+    /// assert_eq!(world.time(), 10.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`advance_to`](EventDriven::advance_to).
+    pub fn advance_about(
+        &mut self,
+        time: f64,
+        events: u64,
+        on_event: Listener<'_, T>,
+    ) -> Result<bool, EngineError> {
+        self.after(time - self.time())?;
+        let stretch = Stretch { collisions: events, is_exact: false };
+        self.engine.advance_to(time, stretch, on_event)
     }
 
     /// What the scene needs.

@@ -7,7 +7,7 @@
 //! moved and scaled back. All other scenes are computed as they are.
 
 use super::account::{Effort, Totals};
-use super::interface::{Engine, EventEngine, StepEngine};
+use super::interface::{Engine, EventEngine, StepEngine, Stretch};
 use super::{EngineError, Event, Listener, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
@@ -299,16 +299,16 @@ impl<T: Real, E: EventEngine<T>> EventEngine<T> for Framed<T, E> {
     fn advance_to(
         &mut self,
         time: f64,
-        events: u64,
+        stretch: Stretch,
         on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
         let Self { engine, frame } = self;
         let time = time * power(-frame.time);
         let done = match on_event {
-            None => engine.advance_to(time, events, None),
+            None => engine.advance_to(time, stretch, None),
             Some(on_event) => {
                 let mut listener = |event: &Event<T>| on_event(&frame.leave_event(event));
-                engine.advance_to(time, events, Some(&mut listener))
+                engine.advance_to(time, stretch, Some(&mut listener))
             }
         };
         done.map_err(|error| frame.leave_error(error))

@@ -47,14 +47,22 @@ pub trait StepEngine<T: Real>: Engine<T> {
     fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>);
 }
 
+/// How many collisions an advance takes at most.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    pub collisions: u64,
+    /// Whether it ends with the last of them, or where it suits the engine after it.
+    pub is_exact: bool,
+}
+
 /// A scene in motion from collision to collision.
 pub trait EventEngine<T: Real>: Engine<T> {
-    /// Lets time pass up to `time`, which is not past, or up to the given number
-    /// of collisions from now. Returns whether all up to that time is done.
+    /// Lets time pass up to `time`, which is not past, or for a stretch. Returns whether
+    /// all up to that time is done.
     fn advance_to(
         &mut self,
         time: f64,
-        events: u64,
+        stretch: Stretch,
         on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError>;
 

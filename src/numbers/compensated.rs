@@ -4,8 +4,10 @@
 //! underflows. A fused multiply-add would give the error of a product in one
 //! operation and the same bits, but machines without it would take a hundred.
 
+mod exact;
 mod sum;
 
+pub use exact::ExactSum;
 pub use sum::CompensatedSum;
 
 use crate::lane::Lane;

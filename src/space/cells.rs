@@ -5,14 +5,16 @@
 //! is kept up as they cross from one to the next.
 
 mod axis;
+mod members;
 mod span;
 
-use std::collections::BTreeMap;
-
 pub(crate) use axis::Ends;
-use axis::{Axis, BLOCK, NOWHERE, WIDE, count, number, numbers};
+use axis::{Axis, BLOCK, WIDE, count, number, numbers};
+use members::Spilled;
+pub(crate) use members::{CutCells, Members};
 pub(crate) use span::Span;
 
+use super::pieces::{Pieces, cut};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -41,11 +43,17 @@ const MOST_COORDINATES: i32 = 1 << 29;
 /// Bodies that a block of a cell has room for, and their count.
 const STRIDE: usize = 8;
 
+/// The cells, and how they are numbered.
+#[derive(Debug)]
+pub(crate) struct Grid<T> {
+    axes: [Axis<T>; 3],
+    margin: Vec3<T>,
+}
+
 /// The grid and who is in its cells.
 #[derive(Debug)]
 pub(crate) struct Cells<T> {
-    axes: [Axis<T>; 3],
-    margin: Vec3<T>,
+    grid: Grid<T>,
     /// Blocks of a cell.
     blocks: usize,
     /// The slots of a cell's bodies, in as many blocks as the fullest cell
@@ -53,10 +61,7 @@ pub(crate) struct Cells<T> {
     slots: Vec<[u32; STRIDE]>,
     /// The number of blocks up to which all cells grow with the fullest one.
     most_blocks: usize,
-    /// The bodies that are more than a cell's blocks have room for.
-    spilled: BTreeMap<u32, Vec<u32>>,
-    /// The most bodies of a cell that has spilled.
-    fullest: usize,
+    spilled: Spilled,
 }
 
 impl<T: Real> Cells<T> {
@@ -108,13 +113,11 @@ impl<T: Real> Cells<T> {
         let numbers = number(&mut axes);
         let margins = axes.each_ref().map(|axis| axis.side * T::ratio(1, MARGIN) + rounding);
         Self {
-            axes,
-            margin: Vec3::from(margins),
+            grid: Grid { axes, margin: Vec3::from(margins) },
             blocks: 1,
             slots: vec![[0; STRIDE]; numbers],
             most_blocks: 2 * most as usize,
-            spilled: BTreeMap::new(),
-            fullest: 0,
+            spilled: Spilled::default(),
         }
     }
 
@@ -123,6 +126,67 @@ impl<T: Real> Cells<T> {
         Self::of_counts(span, counts, self.most_blocks as u64 / 2)
     }
 
+    /// The grid.
+    pub fn grid(&self) -> &Grid<T> {
+        &self.grid
+    }
+
+    /// All cells, to be read and written.
+    pub fn members(&mut self) -> Members<'_, T> {
+        Members {
+            grid: &self.grid,
+            blocks: self.blocks,
+            slots: Pieces::whole(&mut self.slots),
+            spilled: &mut self.spilled,
+            is_whole: true,
+        }
+    }
+
+    /// The cells cut at rising numbers, the last of them that of all cells, and what
+    /// else a worker needs for [`Members::of`].
+    pub fn cut(&mut self, ends: impl Iterator<Item = usize>) -> CutCells<'_, T> {
+        let blocks = self.blocks;
+        let runs = cut(&mut self.slots, ends.map(|end| end * blocks));
+        CutCells { grid: &self.grid, blocks, runs }
+    }
+
+    /// How many cells have numbers.
+    pub fn numbers(&self) -> usize {
+        self.slots.len() / self.blocks
+    }
+
+    /// Whether a cell has more bodies than its blocks have room for.
+    pub fn has_spilled(&self) -> bool {
+        !self.spilled.lists.is_empty()
+    }
+
+    /// Takes all bodies out.
+    pub fn clear(&mut self) {
+        for block in self.slots.iter_mut().step_by(self.blocks) {
+            block[STRIDE - 1] = 0;
+        }
+        self.spilled.lists.clear();
+    }
+
+    /// Doubles the room in each of the empty cells, unless that takes too much memory:
+    /// what one cell needs, all get. Returns whether it did.
+    pub fn grow(&mut self) -> bool {
+        let blocks = self.slots.len() * 2;
+        let fits = blocks <= self.most_blocks;
+        if fits {
+            self.slots = vec![[0; STRIDE]; blocks];
+            self.blocks *= 2;
+        }
+        fits
+    }
+
+    /// The bytes that the cells hold.
+    pub fn bytes(&self) -> usize {
+        self.slots.capacity() * size_of::<[u32; STRIDE]>()
+    }
+}
+
+impl<T: Real> Grid<T> {
     /// Cells in memory along each axis.
     pub fn counts(&self) -> [i32; 3] {
         self.axes.each_ref().map(|axis| axis.kept)
@@ -288,11 +352,27 @@ impl<T: Real> Cells<T> {
         }
     }
 
+    /// Whether a point is in a cell, or beyond it by half a margin more than a body that
+    /// is about to cross can be.
+    #[inline(always)]
+    pub fn is_about_in(&self, cell: [i32; 3], point: Vec3<T>) -> bool {
+        let (point, margin) = (point.to_array(), (self.margin * T::ratio(1, 2)).to_array());
+        (0..3).all(|k| {
+            let [low, high] = self.bounds(cell, k);
+            point[k] >= low - margin[k] && point[k] <= high + margin[k]
+        })
+    }
+
     /// The number of a cell.
     #[inline(always)]
     pub fn number_of(&self, cell: [i32; 3]) -> u32 {
         let [x, y, z] = self.lines(cell);
         x[1] + y[1] + z[1]
+    }
+
+    /// Whether a cell is not beyond a closed end.
+    fn has(&self, cell: [i32; 3]) -> bool {
+        (0..3).all(|k| self.axes[k].held(cell[k]) == cell[k])
     }
 
     #[inline(always)]
@@ -301,180 +381,6 @@ impl<T: Real> Cells<T> {
             let axis = &self.axes[k];
             axis.parts[axis.folded(cell[k]) as usize]
         })
-    }
-
-    /// The bodies in a cell and in those around it, into `found`, which has
-    /// room for [`most`](Cells::most) of them; returns how many.
-    #[inline(always)]
-    pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> usize {
-        self.read_lines(self.lines(cell), found)
-    }
-
-    /// The bodies in the layer of cells around `cell` that has come near when
-    /// it was entered along `axis`, from below if `up`.
-    #[inline(always)]
-    pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> usize {
-        let mut lines = self.lines(cell);
-        if !self.are_all_neighbours(axis) {
-            let part = lines[axis][if up { 2 } else { 0 }];
-            lines[axis] = [part, NOWHERE, NOWHERE];
-        }
-        self.read_lines(lines, found)
-    }
-
-    #[inline(always)]
-    fn read_lines(&self, [xs, ys, zs]: [[u32; 3]; 3], found: &mut [u32]) -> usize {
-        let mut len = 0;
-        for z in zs {
-            for y in ys {
-                if z == NOWHERE || y == NOWHERE {
-                    continue;
-                }
-                for x in xs {
-                    if x != NOWHERE {
-                        len = self.read(x + y + z, found, len);
-                    }
-                }
-            }
-        }
-        len
-    }
-
-    /// The bodies in a cell, into `found` behind the first `len`; returns how many
-    /// there are then. There are none beyond closed ends.
-    pub fn read_cell(&self, cell: [i32; 3], found: &mut [u32], len: usize) -> usize {
-        if (0..3).any(|k| self.axes[k].held(cell[k]) != cell[k]) {
-            return len;
-        }
-        self.read(self.number_of(cell), found, len)
-    }
-
-    #[inline(always)]
-    fn read(&self, number: u32, found: &mut [u32], len: usize) -> usize {
-        if self.blocks > 1 {
-            return self.read_blocks(number, found, len);
-        }
-        // A whole block is copied faster than a few numbers are counted.
-        let block = &self.slots[number as usize];
-        found[len..len + STRIDE].copy_from_slice(block);
-        len + block[STRIDE - 1] as usize
-    }
-
-    #[inline(never)]
-    fn read_blocks(&self, number: u32, found: &mut [u32], len: usize) -> usize {
-        let start = number as usize * self.blocks;
-        let slots = self.slots[start..start + self.blocks].as_flattened();
-        let count = slots[STRIDE - 1] as usize;
-        let within = count.min(self.room());
-        let first = within.min(STRIDE - 1);
-        found[len..len + first].copy_from_slice(&slots[..first]);
-        found[len + first..len + within].copy_from_slice(&slots[STRIDE..STRIDE + within - first]);
-        if count > within
-            && let Some(spilled) = self.spilled.get(&number)
-        {
-            found[len + within..len + count].copy_from_slice(spilled);
-        }
-        len + count
-    }
-
-    /// How many slots a buffer for [`around`](Cells::around) must have.
-    pub fn most(&self) -> usize {
-        (27 * self.most_in_cell()).next_multiple_of(16) + 2 * STRIDE
-    }
-
-    /// How many slots are written at most to read a cell.
-    pub fn most_in_cell(&self) -> usize {
-        (self.blocks * STRIDE).max(self.fullest)
-    }
-
-    /// How many bodies the blocks of a cell have room for.
-    fn room(&self) -> usize {
-        self.blocks * STRIDE - 1
-    }
-
-    /// The slots of a cell's bodies and their count, as they lie in memory.
-    fn slots_in(&mut self, cell: [i32; 3]) -> &mut [u32] {
-        let start = self.number_of(cell) as usize * self.blocks;
-        self.slots[start..start + self.blocks].as_flattened_mut()
-    }
-
-    /// Puts a body into a cell.
-    pub fn insert(&mut self, cell: [i32; 3], slot: u32) {
-        let count = self.slots_in(cell)[STRIDE - 1] as usize;
-        if count >= self.room() {
-            self.grow();
-        }
-        if count < self.room() {
-            self.slots_in(cell)[nth(count)] = slot;
-        } else {
-            self.spilled.entry(self.number_of(cell)).or_default().push(slot);
-            self.fullest = self.fullest.max(count + 1);
-        }
-        self.slots_in(cell)[STRIDE - 1] += 1;
-    }
-
-    /// Takes a body out of a cell.
-    pub fn remove(&mut self, cell: [i32; 3], slot: u32) {
-        let room = self.room();
-        let slots = self.slots_in(cell);
-        let count = slots[STRIDE - 1] as usize;
-        if count > room {
-            self.remove_spilled(cell, slot);
-        } else if let Some(at) = (0..count).find(|&k| slots[nth(k)] == slot) {
-            slots[nth(at)] = slots[nth(count - 1)];
-            slots[STRIDE - 1] -= 1;
-        }
-    }
-
-    /// Takes a body out of a cell with more bodies than its blocks have room for.
-    #[cold]
-    fn remove_spilled(&mut self, cell: [i32; 3], slot: u32) {
-        let (number, room) = (self.number_of(cell), self.room());
-        let Some(spilled) = self.spilled.get_mut(&number) else { return };
-        let last = if let Some(at) = spilled.iter().position(|&other| other == slot) {
-            spilled.swap_remove(at);
-            None
-        } else {
-            spilled.pop()
-        };
-        if spilled.is_empty() {
-            self.spilled.remove(&number);
-        }
-        let slots = self.slots_in(cell);
-        if let Some(last) = last
-            && let Some(at) = (0..room).find(|&k| slots[nth(k)] == slot)
-        {
-            slots[nth(at)] = last;
-        }
-        slots[STRIDE - 1] -= 1;
-    }
-
-    /// Takes all bodies out.
-    pub fn clear(&mut self) {
-        for block in self.slots.iter_mut().step_by(self.blocks) {
-            block[STRIDE - 1] = 0;
-        }
-        self.spilled.clear();
-    }
-
-    /// Doubles the room in each cell, unless that takes too much memory: what
-    /// one cell needs, all get.
-    #[cold]
-    fn grow(&mut self) {
-        let blocks = self.blocks * 2;
-        if self.slots.len() * 2 > self.most_blocks {
-            return;
-        }
-        let mut slots = vec![[0; STRIDE]; self.slots.len() * 2];
-        for (to, from) in slots.chunks_mut(blocks).zip(self.slots.chunks(self.blocks)) {
-            to[..from.len()].copy_from_slice(from);
-        }
-        (self.slots, self.blocks) = (slots, blocks);
-    }
-
-    /// The bytes that the cells hold.
-    pub fn bytes(&self) -> usize {
-        self.slots.capacity() * size_of::<[u32; STRIDE]>()
     }
 }
 
@@ -487,9 +393,4 @@ fn least_side<T: Real>(span: Span<T>, reach: T) -> T {
 /// face.
 fn rounding<T: Real>(span: Span<T>) -> T {
     span.farthest() * T::EPSILON * T::whole(64)
-}
-
-/// Where the body of a number is among a cell's slots.
-fn nth(number: usize) -> usize {
-    number + usize::from(number >= STRIDE - 1)
 }

@@ -13,7 +13,7 @@
 //! one's level near its surface, each time it searches or crosses a cell of that
 //! level (levels: Ogarko and Luding, *Computer Physics Communications* 183, 2012).
 
-use super::cells::{Cells, Span};
+use super::cells::{Cells, Grid, Members, Span};
 use super::sizes;
 use crate::bodies::PerBody;
 use crate::real::Real;
@@ -48,9 +48,24 @@ pub(crate) struct Levels<T> {
     coarser: Vec<Level<T>>,
 }
 
+/// The grids, with the cells that a worker holds.
+#[derive(Debug)]
+pub(crate) struct Held<'a, T> {
+    pub finest: Members<'a, T>,
+    coarser: Vec<Members<'a, T>>,
+    /// What is special to each level, coarsest first; empty if there is one only.
+    sizes: Vec<&'a Sizes<T>>,
+}
+
 #[derive(Debug)]
 struct Level<T> {
     cells: Cells<T>,
+    sizes: Sizes<T>,
+}
+
+/// What is special to a level.
+#[derive(Debug)]
+pub(crate) struct Sizes<T> {
     /// Greatest radius of its bodies, length.
     greatest: T,
     /// Least radius of its bodies, length.
@@ -66,8 +81,8 @@ impl<T: Real> Levels<T> {
     pub fn fitting(span: Span<T>, radius: &PerBody<T>, len: usize, parts: usize) -> Self {
         let greatest = radius.greatest();
         let one = Cells::fitting(span, greatest + greatest, len, parts);
-        let around =
-            27 * len as u64 / one.counts().iter().map(|&count| count as u64).product::<u64>();
+        let around = 27 * len as u64
+            / one.grid().counts().iter().map(|&count| count as u64).product::<u64>();
         let several = match radius {
             PerBody::Each(radii) if around > CROWDED => Self::several(span, radii, &one, parts),
             _ => None,
@@ -81,8 +96,8 @@ impl<T: Real> Levels<T> {
     }
 
     fn one(cells: Cells<T>, greatest: T) -> Self {
-        let level = Level { cells, greatest, least: T::ZERO, shift: 0, shells: Vec::new() };
-        Self { finest: level, coarser: Vec::new() }
+        let sizes = Sizes { greatest, least: T::ZERO, shift: 0, shells: Vec::new() };
+        Self { finest: Level { cells, sizes }, coarser: Vec::new() }
     }
 
     /// Levels upon a grid for the greatest bodies; `None` if there is room for one
@@ -98,9 +113,11 @@ impl<T: Real> Levels<T> {
         }
         let alone: Vec<[i32; 3]> = classes
             .iter()
-            .map(|class| Cells::fitting(span, class.0 + class.0, radii.len(), parts).counts())
+            .map(|class| {
+                Cells::fitting(span, class.0 + class.0, radii.len(), parts).grid().counts()
+            })
             .collect();
-        let (base, finest) = nested(coarsest.counts(), *alone.last()?);
+        let (base, finest) = nested(coarsest.grid().counts(), *alone.last()?);
         for ((_, _, digits), counts) in classes.iter_mut().zip(&alone) {
             let fits = |shift: u32| (0..3).all(|k| base[k] << shift <= counts[k]);
             *digits = (1..=finest).take_while(|&shift| fits(shift)).count() as u32;
@@ -119,45 +136,88 @@ impl<T: Real> Levels<T> {
             .iter()
             .map(|&(greatest, least, digits)| Level {
                 cells: coarsest.divided(span, base.map(|count| count << digits)),
-                greatest,
-                least,
-                shift: finest - digits,
-                shells: Vec::new(),
+                sizes: Sizes { greatest, least, shift: finest - digits, shells: Vec::new() },
             })
             .collect();
-        let margin = levels.last()?.cells.sides().map(|[_, margin]| margin);
+        let margin = levels.last()?.cells.grid().sides().map(|[_, margin]| margin);
         for coarse in 0..levels.len() {
             for fine in coarse + 1..levels.len() {
                 let shell = shell(&levels[coarse], &levels[fine], margin)?;
-                levels[coarse].shells.push(shell);
+                levels[coarse].sizes.shells.push(shell);
             }
         }
         Some(Self { finest: levels.pop()?, coarser: levels })
     }
 
     /// The finest grid, in whose coordinates cells are named.
-    #[inline(always)]
-    pub fn finest(&self) -> &Cells<T> {
-        &self.finest.cells
+    pub fn finest(&self) -> &Grid<T> {
+        self.finest.cells.grid()
     }
 
     /// The grid of the greatest bodies.
-    pub fn coarsest(&self) -> &Cells<T> {
-        &self.level(0).cells
+    pub fn coarsest(&self) -> &Grid<T> {
+        self.coarser.first().unwrap_or(&self.finest).cells.grid()
     }
 
     fn all(&self) -> impl Iterator<Item = &Level<T>> {
         self.coarser.iter().chain([&self.finest])
     }
 
-    #[inline(always)]
-    fn level(&self, level: usize) -> &Level<T> {
-        self.coarser.get(level).unwrap_or(&self.finest)
+    fn all_mut(&mut self) -> impl Iterator<Item = &mut Level<T>> {
+        self.coarser.iter_mut().chain([&mut self.finest])
     }
 
-    #[inline(always)]
-    fn level_mut(&mut self, level: usize) -> &mut Level<T> {
-        self.coarser.get_mut(level).unwrap_or(&mut self.finest)
+    /// How many levels there are.
+    pub fn len(&self) -> usize {
+        self.coarser.len() + 1
+    }
+
+    /// All cells, to be read and written.
+    pub fn held(&mut self) -> Held<'_, T> {
+        let Self { finest, coarser } = self;
+        let is_one = coarser.is_empty();
+        let (mut members, mut sizes) = (Vec::new(), Vec::new());
+        for level in coarser {
+            members.push(level.cells.members());
+            sizes.push(&level.sizes);
+        }
+        if !is_one {
+            sizes.push(&finest.sizes);
+        }
+        Held { finest: finest.cells.members(), coarser: members, sizes }
+    }
+
+    /// The cells of the only level.
+    pub fn only(&mut self) -> &mut Cells<T> {
+        &mut self.finest.cells
+    }
+
+    /// Takes all bodies out.
+    pub fn clear(&mut self) {
+        self.all_mut().for_each(|level| level.cells.clear());
+    }
+
+    /// Makes room where cells have more bodies than they have room for. If it did, all
+    /// of a level's bodies are out.
+    pub fn grow(&mut self) -> bool {
+        let grow = |level: &mut Level<T>| level.cells.has_spilled() && level.cells.grow();
+        self.all_mut().fold(false, |has_grown, level| grow(level) || has_grown)
+    }
+
+    /// The bytes that the grids hold.
+    pub fn bytes(&self) -> usize {
+        let bytes = |level: &Level<T>| {
+            let rows: usize = level.sizes.shells.iter().map(Vec::capacity).sum();
+            level.cells.bytes() + rows * size_of::<Row>()
+        };
+        self.all().map(bytes).sum()
+    }
+}
+
+impl<'a, T: Real> Held<'a, T> {
+    /// The cells of one level only.
+    pub fn one(finest: Members<'a, T>) -> Self {
+        Self { finest, coarser: Vec::new(), sizes: Vec::new() }
     }
 
     /// How many levels there are.
@@ -169,58 +229,48 @@ impl<T: Real> Levels<T> {
     /// The level of a body.
     #[inline(always)]
     pub fn level_of(&self, radius: T) -> usize {
-        (1..self.len()).take_while(|&level| radius <= self.level(level).greatest).count()
+        (1..self.sizes.len()).take_while(|&level| radius <= self.sizes[level].greatest).count()
     }
 
     /// A cell in the coordinates of a level.
     #[inline(always)]
     pub fn cell_at(&self, level: usize, cell: [i32; 3]) -> [i32; 3] {
-        cell.map(|c| c >> self.level(level).shift)
+        match self.sizes.get(level) {
+            Some(sizes) => cell.map(|c| c >> sizes.shift),
+            None => cell,
+        }
     }
 
-    /// The grid of a level.
+    /// The cells of a level.
     #[inline(always)]
-    pub fn at(&self, level: usize) -> &Cells<T> {
-        &self.level(level).cells
+    pub fn at(&self, level: usize) -> &Members<'a, T> {
+        self.coarser.get(level).unwrap_or(&self.finest)
     }
 
     /// Where bodies of the level `fine` can touch one of the level `coarse`.
-    pub fn shell(&self, coarse: usize, fine: usize) -> &[Row] {
-        &self.level(coarse).shells[fine - coarse - 1]
+    pub fn shell(&self, coarse: usize, fine: usize) -> &'a [Row] {
+        &self.sizes[coarse].shells[fine - coarse - 1]
     }
 
     /// Puts a body of a level into a cell of the finest grid.
     #[inline(always)]
     pub fn insert(&mut self, level: usize, cell: [i32; 3], slot: u32) {
         let cell = self.cell_at(level, cell);
-        self.level_mut(level).cells.insert(cell, slot);
+        let members = self.coarser.get_mut(level).unwrap_or(&mut self.finest);
+        members.insert(members.grid.number_of(cell), slot);
     }
 
     /// Takes a body of a level out of a cell of the finest grid.
     #[inline(always)]
     pub fn remove(&mut self, level: usize, cell: [i32; 3], slot: u32) {
         let cell = self.cell_at(level, cell);
-        self.level_mut(level).cells.remove(cell, slot);
-    }
-
-    /// Takes all bodies out.
-    pub fn clear(&mut self) {
-        self.finest.cells.clear();
-        self.coarser.iter_mut().for_each(|level| level.cells.clear());
+        let members = self.coarser.get_mut(level).unwrap_or(&mut self.finest);
+        members.remove(members.grid.number_of(cell), slot);
     }
 
     /// How many slots a buffer for the bodies found must have.
     pub fn most(&self) -> usize {
-        self.all().map(|level| level.cells.most()).max().unwrap_or(0)
-    }
-
-    /// The bytes that the grids hold.
-    pub fn bytes(&self) -> usize {
-        let bytes = |level: &Level<T>| {
-            let rows: usize = level.shells.iter().map(Vec::capacity).sum();
-            level.cells.bytes() + rows * size_of::<Row>()
-        };
-        self.all().map(bytes).sum()
+        self.coarser.iter().map(Members::most).fold(self.finest.most(), usize::max)
     }
 }
 
@@ -242,16 +292,16 @@ fn nested(coarse: [i32; 3], fine: [i32; 3]) -> ([i32; 3], u32) {
 /// coarser level whose centre is in the middle one. `None` if the grid closes upon
 /// itself within them.
 fn shell<T: Real>(coarse: &Level<T>, fine: &Level<T>, margin: [f64; 3]) -> Option<Vec<Row>> {
-    let sides = fine.cells.sides().map(|[side, _]| side);
+    let sides = fine.cells.grid().sides().map(|[side, _]| side);
     // Both bodies may be beyond their cells; a little more, for the rounding.
     let beyond = margin.map(|margin| 2.5 * margin);
-    let outer = coarse.greatest.to_f64() + fine.greatest.to_f64();
-    let inner = coarse.least.to_f64();
+    let outer = coarse.sizes.greatest.to_f64() + fine.sizes.greatest.to_f64();
+    let inner = coarse.sizes.least.to_f64();
     let most: [i32; 3] =
         core::array::from_fn(|k| ((outer + beyond[k]) / sides[k]).floor() as i32 + 1);
     let closes = |k: usize| {
-        let count = i64::from(fine.cells.counts()[k]);
-        fine.cells.closes(k) && 2 * i64::from(most[k]) + 1 > count
+        let count = i64::from(fine.cells.grid().counts()[k]);
+        fine.cells.grid().closes(k) && 2 * i64::from(most[k]) + 1 > count
     };
     if (0..3).any(closes) {
         return None;
@@ -306,8 +356,9 @@ mod tests {
         let mut radii = vec![0.05_f64; 40_000];
         radii.extend([0.2, 1.5, 4.0, 5.0]);
         let radius = each(&radii);
-        let levels = Levels::fitting(span, &radius, radii.len(), 0);
+        let mut levels = Levels::fitting(span, &radius, radii.len(), 0);
         assert!(levels.len() > 2, "{}", levels.len());
+        let levels = levels.held();
         let mut state = 1_u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -318,7 +369,7 @@ mod tests {
             let center = Vec3::new(random() * 50.0, random() * 60.0, random() * 55.0);
             let toward = Vec3::new(random() - 0.5, random() - 0.5, random() - 0.5);
             let other = center + toward * ((great + 0.05) / toward.length());
-            let [a, b] = [center, other].map(|point| levels.finest().cell_of(point));
+            let [a, b] = [center, other].map(|point| levels.finest.grid.cell_of(point));
             let (coarse, fine) = (levels.level_of(great), levels.level_of(0.05));
             if coarse == fine {
                 continue;

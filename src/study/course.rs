@@ -70,7 +70,7 @@ impl Course {
     ///
     /// # Errors
     /// Of the event-driven engine, see
-    /// [`advance_to`](crate::EventDriven::advance_to).
+    /// [`advance_about`](crate::EventDriven::advance_about).
     pub fn advance<T: Real>(
         &self,
         world: &mut World<T>,
@@ -89,7 +89,7 @@ impl Course {
                 let end = world.time() + self.length * (stretch as f64 / PARTS);
                 let is_last = end >= mark;
                 let end = if is_last { mark } else { end };
-                Ok(world.advance_to(end, stretch, on_event)? && is_last)
+                Ok(world.advance_about(end, stretch, on_event)? && is_last)
             }
         }
     }

@@ -2,7 +2,8 @@
 //! Not close to it: the same events, every bit of them.
 
 use carom::contact::Surface;
-use carom::engine::{Compiled, EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, Event, EventDriven, Execution, Lanes, Order};
+use carom::observe::state_hash;
 use carom::real::Real;
 use carom::scene::{Encounters, Scene, Sphere, Spheres};
 use carom::space::PeriodicBox;
@@ -211,13 +212,34 @@ fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
     let end = first.time() * (1.0 + 1.0 / 1024.0);
     // A push may go round for ever among balls that touch.
     let cap = 2 * most as usize;
-    let mut found = Vec::new();
-    let result = world().for_each_event(end, |event| {
-        if found.len() < cap {
-            found.push(*event);
+    let story = |mut world: EventDriven<T>| {
+        let mut found: Vec<Event<T>> = Vec::new();
+        let result = world.for_each_event(end, |event| {
+            if found.len() < cap {
+                found.push(*event);
+            }
+        });
+        assert!(result.is_ok() || found.len() == cap, "{}: {result:?}", scene.name);
+        (found, world, result)
+    };
+    let (found, world, result) = story(world());
+    for threads in [1, 2, 3] {
+        let execution = Execution::new().lanes(lanes).threads(threads).order(Order::Windows);
+        let (windows, other, _) =
+            story(EventDriven::with_execution(scene.clone(), execution).unwrap());
+        let name = format!("{} {} in windows on {threads} threads", scene.name, T::NAME);
+        for (k, (found, expected)) in windows.iter().zip(&found).enumerate() {
+            assert_eq!(found, expected, "{name}: event {k}");
         }
-    });
-    assert!(result.is_ok() || found.len() == cap, "{}: {result:?}", scene.name);
+        assert_eq!(windows.len(), found.len(), "{name}");
+        if result.is_ok() {
+            assert_eq!(state_hash(&other.bodies()), state_hash(&world.bodies()), "{name}");
+            assert_eq!(other.collisions(), world.collisions(), "{name}");
+            assert_eq!(other.virial().to_bits(), world.virial().to_bits(), "{name}");
+            assert_eq!(other.impulse_from_surroundings(), world.impulse_from_surroundings());
+            assert_eq!(other.mean_free_path(), world.mean_free_path(), "{name}");
+        }
+    }
     let mut reference = Reference::new(scene);
     for (k, event) in found.iter().enumerate() {
         let expected = reference.next_event(end);

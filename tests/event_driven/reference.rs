@@ -31,11 +31,14 @@ struct Ball<T> {
     radius: T,
     spin: Vec3<T>,
     last: Met,
+    /// How many collisions have led to one at the time at which the flight starts.
+    follows: u32,
 }
 
-/// A contact: when, and its rank among those of equal times. The lesser ball
-/// comes first, and its contacts with features before those with balls.
-type Contact<T> = (T, (usize, bool, usize));
+/// A contact: when, how many collisions at that time have led to it, and its rank among
+/// those of equal times. The lesser ball comes first, and its contacts with features
+/// before those with balls.
+type Contact<T> = (T, u32, (usize, bool, usize));
 
 pub struct Reference<'a, T: Real> {
     scene: &'a Scene<T>,
@@ -95,6 +98,7 @@ impl<'a, T: Real> Reference<'a, T> {
             radius: bodies.radius.of(k),
             spin: bodies.spin_of(k),
             last: Met::Nothing,
+            follows: 0,
         };
         let parts =
             if scene.encounters == Encounters::None { &[] } else { &scene.surroundings[..] };
@@ -129,11 +133,11 @@ impl<'a, T: Real> Reference<'a, T> {
             let contacts = self.contacts().filter(|contact| contact.0 < self.period);
             let first = contacts.reduce(|a, b| if b < a { b } else { a });
             match first {
-                Some((time, with)) if time <= self.now + window => {
+                Some((time, generation, with)) if time <= self.now + window => {
                     self.now = time;
                     self.last_collision = time;
                     let time = self.not_before(time);
-                    return (time <= until).then(|| self.happen(with));
+                    return (time <= until).then(|| self.happen(generation, with));
                 }
                 _ if self.origin.value() + self.now.to_f64() > until => return None,
                 _ if self.now + window < self.period => self.now = self.now + window,
@@ -187,9 +191,20 @@ impl<'a, T: Real> Reference<'a, T> {
         let pairs = (0..count).flat_map(move |a| (0..a).map(move |b| (b, a)));
         let balls =
             (0..self.balls.len()).flat_map(|a| (0..self.features.len()).map(move |f| (a, f)));
-        let pairs = pairs.filter_map(|(a, b)| Some((self.meeting(a, b)?, (a, true, b))));
-        let contact = |a: usize, f: usize| Some(self.balls[a].since + self.wait(a, f)?);
-        pairs.chain(balls.filter_map(move |(a, f)| Some((contact(a, f)?, (a, false, f)))))
+        let pairs = pairs.filter_map(|(a, b)| {
+            let time = self.meeting(a, b)?;
+            Some((time, self.follows(a, time).max(self.follows(b, time)), (a, true, b)))
+        });
+        let features = balls.filter_map(|(a, f)| {
+            let time = self.balls[a].since + self.wait(a, f)?;
+            Some((time, self.follows(a, time), (a, false, f)))
+        });
+        pairs.chain(features)
+    }
+
+    /// How many collisions at a time have led to one of a ball.
+    fn follows(&self, ball: usize, time: T) -> u32 {
+        if self.balls[ball].since == time { self.balls[ball].follows } else { 0 }
     }
 
     /// When two balls meet: worked out from their states where the later of the
@@ -274,7 +289,10 @@ impl<'a, T: Real> Reference<'a, T> {
     }
 
     /// What happens at a contact now.
-    fn happen(&mut self, (a, is_pair, b): (usize, bool, usize)) -> Collision<T> {
+    fn happen(&mut self, generation: u32, (a, is_pair, b): (usize, bool, usize)) -> Collision<T> {
+        for ball in [Some(a), is_pair.then_some(b)].into_iter().flatten() {
+            self.balls[ball].follows = generation + 1;
+        }
         let (offset, arm, impulse, partner);
         if is_pair {
             let reach = self.balls[a].radius + self.balls[b].radius;
@@ -349,11 +367,13 @@ impl<'a, T: Real> Reference<'a, T> {
             let is_open = self.scene.periodic.is_none();
             if is_hollow && is_coarsest && is_open && self.balls[k].since > T::ZERO {
                 self.balls[k].since = self.balls[k].since - end;
+                self.balls[k].follows = 0;
                 continue;
             }
             let (position, velocity) = self.at(&self.balls[k], end);
             let position = self.scene.periodic.map_or(position, |space| space.wrap(position));
-            self.balls[k] = Ball { position, velocity, since: T::ZERO, ..self.balls[k] };
+            self.balls[k] =
+                Ball { position, velocity, since: T::ZERO, follows: 0, ..self.balls[k] };
         }
         self.idle = if self.last_collision == T::ZERO { self.idle + 1 } else { 0 };
         self.last_collision = T::ZERO;

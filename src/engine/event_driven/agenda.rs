@@ -33,14 +33,14 @@ impl PartnerCode {
 }
 
 /// A contact that happens unless the partner's motion changes before.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Expected<T> {
     /// When, since the period's start.
     pub time: T,
     /// The partner, by slot.
     pub partner: PartnerCode,
-    /// How often the partner's motion had changed when this was found.
-    pub changes: u32,
+    /// The stamp of the partner's flight; 0 of a feature.
+    pub stamp: u32,
 }
 
 /// The face of a cell that a body leaves it through.
@@ -72,15 +72,6 @@ pub(super) struct Agenda<T: Real> {
     aligned: [T::Pack8; 0],
 }
 
-/// What others ask about a body.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Mark {
-    /// How often its motion has changed.
-    pub changes: u32,
-    /// What it met last, a body by its index in the scene.
-    pub last: PartnerCode,
-}
-
 /// What a body does next.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Next<T> {
@@ -95,7 +86,7 @@ pub(super) enum Next<T> {
 impl<T: Real> Agenda<T> {
     /// A body of which nothing is known yet.
     pub fn new(cell: [i32; 3]) -> Self {
-        let none = Expected { time: T::ZERO, partner: PartnerCode::NONE, changes: 0 };
+        let none = Expected { time: T::ZERO, partner: PartnerCode::NONE, stamp: 0 };
         Self {
             leaves_cell: T::ZERO,
             complete_until: T::ZERO,
@@ -126,7 +117,7 @@ impl<T: Real> Agenda<T> {
     pub fn keep(
         &mut self,
         found: Expected<T>,
-        comes_first: impl Fn(PartnerCode, PartnerCode) -> bool,
+        comes_first: impl Fn(&Expected<T>, &Expected<T>) -> bool,
     ) {
         if found.time.ge(self.complete_until) {
             return;
@@ -135,14 +126,11 @@ impl<T: Real> Agenda<T> {
         let mut at = len;
         while at > 0 {
             let kept = self.kept[at - 1];
-            if kept.partner == found.partner && kept.time == found.time {
-                // Found before, of the same motion or of an older one.
-                self.kept[at - 1] = found;
+            if kept == found {
+                // Found before.
                 return;
             }
-            if kept.time < found.time
-                || (kept.time == found.time && comes_first(kept.partner, found.partner))
-            {
+            if kept.time < found.time || (kept.time == found.time && comes_first(&kept, &found)) {
                 break;
             }
             at -= 1;
@@ -169,6 +157,14 @@ impl<T: Real> Agenda<T> {
             self.kept[k - 1] = self.kept[k];
         }
         self.len -= 1;
+    }
+
+    /// Whether the first contact has the same time as the second one, or as one that is
+    /// not kept.
+    #[inline(always)]
+    pub fn is_tied(&self) -> bool {
+        let next = if self.len > 1 { self.kept[1].time } else { self.complete_until };
+        self.len > 0 && self.kept[0].time == next
     }
 
     /// When the first contact is, or a search for one.

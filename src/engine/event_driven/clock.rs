@@ -27,7 +27,15 @@ pub(super) struct Clock<T> {
     /// Periods since the last one in which bodies collided.
     idle: u32,
     /// Turns taken in this period.
-    turns: u64,
+    pub turns: u64,
+    /// Turns in a time of the last period that had any.
+    turns_per_time: Option<f64>,
+    /// Length of the next window; `None` in strict order of time.
+    pub window: Option<T>,
+    /// The longest that a window may be.
+    pub longest_window: T,
+    /// Time of the period up to which windows are worked off.
+    pub worked_off: T,
     /// Time has advanced when it is past this one.
     progress: T,
     /// Turns since it did.
@@ -45,22 +53,33 @@ impl<T: Real> Clock<T> {
             time: 0.0,
             idle: 0,
             turns: 0,
+            turns_per_time: None,
+            window: None,
+            longest_window: T::ZERO,
+            worked_off: T::ZERO,
             progress: T::ZERO,
             standstill: 0,
         }
     }
 
-    /// Ends the present period at a time of it. Returns the turns in a time that
-    /// it had, if it had any.
-    pub fn end_period(&mut self, end: T) -> Option<f64> {
+    /// Ends the present period at a time of it.
+    pub fn end_period(&mut self, end: T) {
         let rounded = end.to_f64();
         self.origin.add(rounded);
         // What a finer precision than `f64` has besides.
         self.origin.add((end - T::from_f64(rounded)).to_f64());
         self.last_collision = T::ZERO;
         self.progress = T::ZERO;
+        self.worked_off = T::ZERO;
         let turns = core::mem::take(&mut self.turns);
-        (turns > 0 && end != T::ZERO).then(|| turns as f64 / end.to_f64())
+        if turns > 0 && end != T::ZERO {
+            self.turns_per_time = Some(turns as f64 / end.to_f64());
+        }
+    }
+
+    /// Turns in a time, if any were counted.
+    pub fn turns_per_time(&self) -> Option<f64> {
+        self.turns_per_time
     }
 
     /// How much longer than others the next period is, as a binary exponent: after a few

@@ -12,6 +12,7 @@ use super::meeting::meeting;
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
+use crate::space::pieces::Pieces;
 use crate::space::{PeriodicBox, Space};
 use crate::vec3::Vec3;
 
@@ -20,12 +21,11 @@ use crate::vec3::Vec3;
 const LEAST_PRODUCT: f64 = 1e-15;
 const MOST_PRODUCT: f64 = 1e18;
 
-/// The bodies in coarse precision.
+/// How bodies are put down in coarse precision.
 #[derive(Debug)]
-pub(super) struct Coarse<C: Real> {
+pub(super) struct Screening<C: Real> {
     /// Whether it is fine enough for the scene.
     pub is_useful: bool,
-    records: Vec<Record<C>>,
     gravity: Vec3<C>,
     pub periodic: Option<PeriodicBox<C>>,
     /// What is added to each radius, length.
@@ -49,11 +49,10 @@ pub(super) struct Scales {
     pub period: f64,
 }
 
-impl<C: Real> Coarse<C> {
+impl<C: Real> Screening<C> {
     pub fn new<T: Real>(gravity: Vec3<T>, periodic: Option<PeriodicBox<T>>) -> Self {
         Self {
             is_useful: false,
-            records: Vec::new(),
             gravity: gravity.cast(),
             periodic: periodic.map(PeriodicBox::cast),
             margin: C::ZERO,
@@ -62,7 +61,7 @@ impl<C: Real> Coarse<C> {
     }
 
     /// Begins a period: chooses the margins, and whether any are small enough.
-    pub fn begin<T: Real>(&mut self, records: &[Record<T>], scales: &Scales) {
+    pub fn begin<T: Real>(&mut self, scales: &Scales) {
         let Scales { extent, neighbourhood, reach, speed, period } = *scales;
         let epsilon = C::EPSILON.to_f64();
         // Positions, the way of a period and the products of the discriminant.
@@ -76,11 +75,11 @@ impl<C: Real> Coarse<C> {
         self.is_useful = is_finer && is_in_range && margin < reach / 32.0;
         self.margin = C::from_f64(margin);
         self.slack = C::from_f64(4.0 * speed * margin);
-        let useful = if self.is_useful { records } else { &[] };
-        self.records = useful.iter().map(|record| self.record(&record.flight())).collect();
     }
 
-    fn record<T: Real>(&self, flight: &Flight<T>) -> Record<C> {
+    /// A flight in coarse precision.
+    #[inline(always)]
+    pub fn record<T: Real>(&self, flight: &Flight<T>) -> Record<C> {
         Record::new(Flight {
             position: flight.position.cast(),
             velocity: flight.velocity.cast(),
@@ -89,36 +88,36 @@ impl<C: Real> Coarse<C> {
         })
     }
 
-    /// Puts the new flight of a body down.
-    #[inline(always)]
-    pub fn put<T: Real>(&mut self, slot: usize, flight: &Flight<T>) {
-        if self.is_useful {
-            self.records[slot] = self.record(flight);
-        }
-    }
-
     /// Keeps of the bodies found those that the body at a slot might meet, and
-    /// returns how many. `found` holds whole packs.
+    /// returns how many. `found` holds whole packs. Those whose flights start now or
+    /// later are put down as `later` besides, if asked for.
+    ///
+    /// Flights that start later are followed back: two that come near each other on
+    /// their lines are kept, wherever on them they are now.
     #[inline(always)]
     pub fn screen<L, F, S, const STARTS: bool>(
         &self,
+        records: &Pieces<'_, Record<C>>,
         slot: u32,
         found: &mut [u32],
         now: C,
-        space: S,
-        further: &[Vec3<C>],
+        (space, further): (S, &[Vec3<C>]),
+        mut later: Option<&mut Vec<u32>>,
     ) -> usize
     where
         L: Lane<Scalar = C>,
         F: FlightStep,
         S: Space<C>,
     {
-        let flight = Flight::<L>::splat(&self.records[slot as usize].flight());
+        let flight = Flight::<L>::splat(&records[slot as usize].flight());
         let (gravity, now) = (Vec3::<L>::splat(self.gravity), L::splat(now));
         let slack = L::splat(self.slack);
         let mut kept = 0;
         for start in (0..found.len()).step_by(L::WIDTH) {
-            let others = Flight::<L>::gather(&self.records, &found[start..start + L::WIDTH]);
+            let others = Flight::<L>::gather(records, &found[start..start + L::WIDTH]);
+            if let Some(later) = &mut later {
+                put_down(others.since.ge(now).bits(), &found[start..], later);
+            }
             let mut hits = 0;
             for further in further {
                 let further = Vec3::<L>::splat(*further);
@@ -135,9 +134,13 @@ impl<C: Real> Coarse<C> {
         }
         kept
     }
+}
 
-    /// The bytes that the records hold.
-    pub fn bytes(&self) -> usize {
-        self.records.capacity() * size_of::<Record<C>>()
+/// Puts down the slots of a pack whose bits are set.
+#[inline(always)]
+pub(super) fn put_down(mut bits: u32, pack: &[u32], later: &mut Vec<u32>) {
+    while bits != 0 {
+        later.push(pack[bits.trailing_zeros() as usize]);
+        bits &= bits - 1;
     }
 }

@@ -3,9 +3,8 @@
 use super::agenda::Exit;
 use super::features::search_features_of_cell;
 use super::region::Region;
-use super::search::{search_greater, search_shell};
+use super::search::{Blocked, Nearby, search_greater, search_shell};
 use super::setting::Setting;
-use crate::engine::account::Effort;
 use crate::lane::Lane;
 use crate::real::Real;
 
@@ -42,9 +41,10 @@ fn leaves<T: Real>([low, high]: [T; 2], position: T, speed: T, acceleration: T) 
 }
 
 /// Works out when the body in a slot leaves its cell.
+#[inline(always)]
 pub(super) fn plan_crossing<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
+    region: &mut Region<'_, T>,
     slot: u32,
     now: T,
     period: T,
@@ -59,7 +59,7 @@ pub(super) fn plan_crossing<T: Real>(
     let agenda = &mut region.agendas[slot as usize];
     let mut first = (T::from_f64(1e30), Exit { axis: 0, up: false });
     for axis in 0..3 {
-        let bounds = region.cells.finest().bounds(agenda.cell, axis);
+        let bounds = region.cells.finest.grid.bounds(agenda.cell, axis);
         let (time, up) = leaves(bounds, position[axis], velocity[axis], gravity[axis]);
         if time < first.0 {
             first = (time, Exit { axis: axis as u8, up });
@@ -72,45 +72,53 @@ pub(super) fn plan_crossing<T: Real>(
 /// Takes the body in a slot to the next cell, and looks who is ahead.
 pub(super) fn cross<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    effort: &mut Effort,
+    region: &mut Region<'_, T>,
     slot: u32,
     now: T,
     period: T,
-) {
-    effort.crossings += 1;
-    let agenda = &mut region.agendas[slot as usize];
+) -> Result<(), Blocked> {
+    let agenda = &region.agendas[slot as usize];
     let Exit { axis, up } = agenda.exit;
     let axis = usize::from(axis);
     let from = agenda.cell;
-    agenda.cell[axis] += if up { 1 } else { -1 };
-    let cell = agenda.cell;
+    let mut cell = from;
+    cell[axis] += if up { 1 } else { -1 };
     let level = region.level_of(slot as usize);
-    let is_new = |region: &Region<T>, level: usize| {
+    let is_new = |region: &Region<'_, T>, level: usize| {
         region.cells.len() == 1
             || region.cells.cell_at(level, from) != region.cells.cell_at(level, cell)
     };
-    if setting.plan.has_pairs && is_new(region, level) {
-        region.cells.remove(level, from, slot);
-        region.cells.insert(level, cell, slot);
-        region.make_room();
+    let is_entered = setting.plan.has_pairs && is_new(region, level);
+    let mut nearby = Nearby { list: 0, len: 0 };
+    if is_entered {
+        let own = region.cells.cell_at(level, cell);
+        let members = region.cells.at(level);
+        let found = &mut region.worker.found[0];
+        nearby.len = members.ahead(own, axis, up, found).ok_or(Blocked)?;
+        if !region.holds_found(0, nearby.len) || !region.can_enter(cell, 1) {
+            return Err(Blocked);
+        }
     }
+    region.worker.account.effort.crossings += 1;
+    if is_entered {
+        region.move_to(level, slot, cell);
+    }
+    region.agendas[slot as usize].cell = cell;
     plan_crossing(setting, region, slot, now, period);
     if setting.plan.features > 0 {
         search_features_of_cell(setting, region, slot);
     }
     if !setting.plan.has_pairs {
-        return;
+        return Ok(());
     }
-    if is_new(region, level) {
-        let own = region.cells.cell_at(level, cell);
-        let len = region.cells.at(level).ahead(own, axis, up, &mut region.found);
-        (setting.search_bodies)(setting, region, effort, slot, len, now);
-        search_greater(setting, region, effort, slot, level, now);
+    if is_entered {
+        (setting.search_bodies)(setting, region, slot, nearby, now);
+        search_greater(setting, region, slot, level, now);
     }
     for finer in level + 1..region.cells.len() {
         if is_new(region, finer) {
-            search_shell(setting, region, effort, slot, [level, finer], now);
+            search_shell(setting, region, slot, [level, finer], now);
         }
     }
+    Ok(())
 }

@@ -1,48 +1,152 @@
-//! Driver: turns and periods, up to the time that is asked for.
+//! Driver: turns, windows and periods, up to the time that is asked for.
 
 use super::clock::Clock;
-use super::period::begin_period;
-use super::region::Region;
+use super::log::Log;
+use super::order::{End, Shift, longest_window};
+use super::period::{begin_period, place};
+use super::region::Worker;
 use super::setting::Setting;
+use super::store::Store;
+use super::territories::Cuts;
 use super::turns::{next_turn, take_turn};
 use crate::bodies::Bodies;
 use crate::column::Column;
 use crate::compensated::CompensatedSum;
 use crate::engine::account::{Account, Effort, Totals};
-use crate::engine::interface::{Engine, EventEngine};
+use crate::engine::interface::{Engine, EventEngine, Stretch};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{EngineError, Execution, Listener};
+use crate::engine::{EngineError, Execution, Listener, Order};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
 use crate::vec3::Vec3;
+use crate::workers::Workers;
 
-/// A scene in motion, from collision to collision.
+/// Windows in the first period, before any collisions were counted.
+const FIRST_WINDOWS: i32 = 64;
+
+/// The event-driven engine of a precision.
 #[derive(Debug)]
 pub(in crate::engine) struct Driver<T: Real> {
     setting: Setting<T>,
-    region: Region<T>,
+    store: Store<T>,
     clock: Clock<T>,
-    account: Account,
+    /// The first one holds everything where the others have nothing to do, and counts
+    /// for all.
+    workers: Vec<Worker<T>>,
+    pool: Workers,
+    cuts: Cuts,
 }
 
 impl<T: Real> Driver<T> {
     /// A scene at its start.
-    pub fn new(scene: Scene<T>, execution: Execution) -> Self {
+    pub fn new(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let plan = Plan::new(&scene, EngineKind::EventDriven, execution, 1);
-        let (mut setting, cells) = Setting::new(scene, plan);
-        let region = Region::new(&setting, cells);
+        let (mut setting, cells) = Setting::new(scene, plan, execution);
+        let pool = match setting.plan.order {
+            Order::Windows => Workers::new(setting.plan.threads)?,
+            _ => Workers::default(),
+        };
+        let count = pool.threads();
+        let mut store = Store::new(&setting, cells);
+        store.logs = (0..=2 * count).map(Log::new).collect();
         setting.leave_to_region();
-        let (clock, account) = (Clock::new(), Account::default());
-        let mut driver = Self { setting, region, clock, account };
+        let workers = (0..count).map(|_| Worker::new(0)).collect();
+        let (clock, cuts) = (Clock::new(), Cuts::default());
+        let mut driver = Self { setting, store, clock, workers, pool, cuts };
         driver.begin_period(T::ZERO);
-        driver
+        Ok(driver)
     }
 
     fn begin_period(&mut self, end: T) {
-        begin_period(&self.setting, &mut self.region, &mut self.clock, &mut self.account, end);
+        let Self { setting, store, clock, workers, .. } = self;
+        let was_strict = clock.window.is_none();
+        if setting.plan.order == Order::Windows && was_strict {
+            clock.window = Some(T::ZERO);
+        }
+        begin_period(setting, store, &mut workers[0], clock, end);
+        if let Some(window) = clock.window {
+            clock.longest_window = longest_window(setting, store, clock);
+            let first = clock.period * T::ratio(1, FIRST_WINDOWS);
+            let window = if was_strict { first } else { window };
+            clock.window = Some(window.lesser(clock.longest_window));
+            let cells = store.cells.only().numbers();
+            let grid = store.cells.finest();
+            let cell_of = |slot: usize| grid.number_of(store.agendas[slot].cell);
+            self.cuts = Cuts::new(2 * workers.len(), store.records.len(), cells, cell_of);
+        }
+    }
+
+    /// Goes on in strict order of time, or in windows.
+    fn choose_order(&mut self, is_strict: bool) {
+        if is_strict == self.clock.window.is_none() || self.setting.plan.order == Order::Strict {
+            return;
+        }
+        let Self { setting, store, clock, workers, .. } = self;
+        clock.window = (!is_strict).then_some(clock.period * T::ratio(1, FIRST_WINDOWS));
+        let now = clock.worked_off;
+        place(setting, store, &mut workers[0], clock, now);
+    }
+
+    /// Takes turns in order of time up to `limit`, which is included, or up to the given
+    /// number of collisions of the run, or until a body is too fast for the period.
+    fn advance_strictly(
+        &mut self,
+        limit: T,
+        last: u64,
+        on_event: &mut Listener<'_, T>,
+    ) -> Result<(), EngineError> {
+        let Self { setting, store, clock, workers, .. } = self;
+        let mut region = store.whole(&mut workers[0], None);
+        while region.worker.account.collisions.total() < last && !region.worker.is_too_fast {
+            let Some(turn) = next_turn(&mut region) else { break };
+            if turn.time > limit {
+                break;
+            }
+            if let Err(events) = clock.check_progress(turn, region.records.len()) {
+                clock.time = clock.since_start(turn.time);
+                let body = region.index[turn.slot as usize];
+                return Err(EngineError::Stalled { time: clock.time, events, body });
+            }
+            region.worker.calendar.take();
+            clock.count();
+            if take_turn(setting, &mut region, clock, turn, on_event).unwrap_or(false) {
+                clock.last_collision = turn.time;
+            }
+        }
+        let is_stopped = region.worker.account.collisions.total() >= last;
+        clock.worked_off = if is_stopped { clock.last_collision } else { limit };
+        Ok(())
+    }
+
+    /// As [`advance_strictly`](Driver::advance_strictly), in windows, and up to the limit
+    /// if it is included, otherwise to before it. Comes back early where windows are of
+    /// no use.
+    fn advance_in_windows(
+        &mut self,
+        limit: (T, bool),
+        (last, is_exact): (u64, bool),
+        on_event: &mut Listener<'_, T>,
+    ) -> End {
+        let Self { setting, store, clock, workers, pool, cuts } = self;
+        let mut shift = Shift { setting, store, workers, pool, cuts, clock };
+        let end = loop {
+            let end = shift.next_window(limit, if is_exact { last } else { u64::MAX }, on_event);
+            let is_past = shift.workers[0].account.collisions.total() >= last;
+            if end != End::Whole || is_past || shift.clock.worked_off >= limit.0 {
+                break end;
+            }
+        };
+        // All flights of the period started with it, or with a collision.
+        let starts = self.store.records.iter().map(|record| record.since());
+        self.clock.last_collision = starts.fold(T::ZERO, T::greater);
+        end
+    }
+
+    fn account(&self) -> &Account {
+        &self.workers[0].account
     }
 }
 
@@ -50,46 +154,38 @@ impl<T: Real> EventEngine<T> for Driver<T> {
     fn advance_to(
         &mut self,
         time: f64,
-        events: u64,
+        Stretch { collisions, is_exact }: Stretch,
         mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
-        let last = self.account.collisions.total().saturating_add(events);
+        let last = self.account().collisions.total().saturating_add(collisions);
+        // A window of which a few collisions are wanted would be thrown away.
+        self.choose_order(is_exact && collisions < self.store.records.len() as u64);
         loop {
             let ahead = self.clock.in_period(time);
             let ends_here = ahead < self.clock.period;
             let limit = if ends_here { ahead } else { self.clock.period };
-            while self.account.collisions.total() < last && !self.region.is_too_fast {
-                let Some(turn) = next_turn(&mut self.region) else { break };
-                if turn.time > limit {
-                    break;
+            if self.clock.window.is_some() && !self.workers[0].is_too_fast {
+                let end =
+                    self.advance_in_windows((limit, ends_here), (last, is_exact), &mut on_event);
+                let is_past = self.account().collisions.total() >= last;
+                if end == End::Undone {
+                    continue;
+                } else if !is_exact && is_past && self.clock.worked_off < limit {
+                    let now = self.clock.not_before(self.clock.worked_off);
+                    self.clock.time = self.clock.time.max(now).min(time);
+                    return Ok(false);
                 }
-                let progress = self.clock.check_progress(turn, self.region.records.len());
-                if let Err(events) = progress {
-                    self.clock.time = self.clock.since_start(turn.time);
-                    let body = self.region.index[turn.slot as usize];
-                    return Err(EngineError::Stalled { time: self.clock.time, events, body });
-                }
-                self.region.calendar.take();
-                self.clock.count();
-                let is_collision = take_turn(
-                    &self.setting,
-                    &mut self.region,
-                    &self.clock,
-                    &mut self.account,
-                    turn,
-                    &mut on_event,
-                );
-                if is_collision {
-                    self.clock.last_collision = turn.time;
-                }
+            } else {
+                self.advance_strictly(limit, last, &mut on_event)?;
             }
-            if self.account.collisions.total() == last {
+            let is_stopped = is_exact || self.clock.window.is_none();
+            if is_stopped && self.account().collisions.total() == last {
                 let now = self.clock.not_before(self.clock.last_collision);
                 // Not beyond the end, up to which it may have been rounded.
                 self.clock.time = self.clock.time.max(now).min(time);
                 return Ok(false);
             }
-            if self.region.is_too_fast {
+            if self.workers[0].is_too_fast {
                 self.begin_period(self.clock.last_collision);
             } else if ends_here {
                 self.clock.time = time;
@@ -105,10 +201,10 @@ impl<T: Real> EventEngine<T> for Driver<T> {
     }
 
     fn mean_free_path(&self) -> Option<f64> {
-        let ends = self.account.collisions.ends();
+        let ends = self.account().collisions.ends();
         let now = self.clock.now();
         let under_way: CompensatedSum = self
-            .region
+            .store
             .records
             .iter()
             .map(|record| {
@@ -116,11 +212,11 @@ impl<T: Real> EventEngine<T> for Driver<T> {
                 (flight.velocity.length() * (now - flight.since)).to_f64()
             })
             .collect();
-        (ends > 0).then(|| (self.account.path() + under_way.value()) / ends as f64)
+        (ends > 0).then(|| (self.account().path() + under_way.value()) / ends as f64)
     }
 
     fn effort(&self) -> Effort {
-        self.account.effort
+        self.account().effort
     }
 }
 
@@ -138,12 +234,12 @@ impl<T: Real> Engine<T> for Driver<T> {
     }
 
     fn totals(&self) -> Totals {
-        self.account.totals()
+        self.account().totals()
     }
 
     fn bodies(&self) -> Bodies<T> {
-        let Self { setting, region, .. } = self;
-        let len = region.records.len();
+        let Self { setting, store, .. } = self;
+        let len = store.records.len();
         let now = self.clock.now();
         let columns = || core::array::from_fn(|_| Column::new(len, T::ZERO));
         let mut bodies = setting.bodies.clone();
@@ -155,16 +251,16 @@ impl<T: Real> Engine<T> for Driver<T> {
                 .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
         }
         for slot in 0..len {
-            let at = region.index[slot] as usize;
-            let (position, velocity) = region.state_of(setting, slot, now);
+            let at = store.index[slot] as usize;
+            let (position, velocity) = setting.state_of(&store.records[slot].flight(), now);
             let position = setting.periodic.map_or(position, |space| space.wrap(position));
-            let spin = region.spin_of(setting, slot);
+            let spin = store.spin_of(setting, slot);
             for k in 0..3 {
                 bodies.position[k][at] = position.to_array()[k];
                 bodies.velocity[k][at] = velocity.to_array()[k];
                 bodies.spin[k][at] = spin.to_array()[k];
             }
-            let orientation = match region.turned.get(slot) {
+            let orientation = match store.turned.get(slot) {
                 Some(&(orientation, since)) => turned(orientation, spin, now - since),
                 None => {
                     turned(setting.bodies.orientation_of(at), spin, T::from_f64(self.clock.time))
@@ -180,6 +276,7 @@ impl<T: Real> Engine<T> for Driver<T> {
     }
 
     fn bytes(&self) -> usize {
-        self.setting.bytes() + self.region.bytes()
+        let workers = self.workers.iter().map(Worker::bytes).sum::<usize>();
+        self.setting.bytes() + self.store.bytes() + workers
     }
 }

@@ -3,6 +3,7 @@
 use crate::lane::Lane;
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
+use crate::space::pieces::Pieces;
 use crate::vec3::Vec3;
 
 /// A body's free flight since its motion last changed.
@@ -38,6 +39,18 @@ impl<T: Real> Record<T> {
     pub fn flight(&self) -> Flight<T> {
         Flight::from_columns(self.reals)
     }
+
+    /// When the flight has started.
+    #[inline(always)]
+    pub fn since(&self) -> T {
+        self.reals[6]
+    }
+
+    /// The body's radius, length.
+    #[inline(always)]
+    pub fn radius(&self) -> T {
+        self.reals[7]
+    }
 }
 
 /// The most lanes that are gathered at once.
@@ -57,8 +70,8 @@ impl<L: Lane> Flight<L> {
 
     /// The flights of the bodies at some slots.
     #[inline(always)]
-    pub fn gather(records: &[Record<L::Scalar>], slots: &[u32]) -> Self {
-        let mut rows = [&records[0].reals; WIDEST];
+    pub fn gather(records: &Pieces<'_, Record<L::Scalar>>, slots: &[u32]) -> Self {
+        let mut rows = [&records[slots[0] as usize].reals; WIDEST];
         for (row, &slot) in rows.iter_mut().zip(&slots[..L::WIDTH]) {
             *row = &records[slot as usize].reals;
         }

@@ -55,6 +55,13 @@ impl<L: Lane> Meeting<L> {
         self.equation.may_meet(slack)
     }
 
+    /// Whether the two meet, and when.
+    #[inline(always)]
+    pub fn contact(&self) -> (L::Mask, L) {
+        let ContactTime { meets, time } = self.equation.contact_time();
+        (meets, self.from + time)
+    }
+
     /// Whether the two are in contact at the start of the later flight, or all
     /// but in contact.
     #[inline(always)]
@@ -82,8 +89,8 @@ impl<T: Real> Meetings<T> {
     /// Puts a pack of meetings down as those from number `first` on.
     #[inline(always)]
     pub fn put<L: Lane<Scalar = T>>(&mut self, first: usize, meeting: &Meeting<L>) {
-        let ContactTime { meets, time } = meeting.equation.contact_time();
-        (meeting.from + time).store(&mut self.times[first..]);
+        let (meets, time) = meeting.contact();
+        time.store(&mut self.times[first..]);
         self.met |= u64::from(meets.bits()) << first;
     }
 

@@ -1,7 +1,7 @@
 //! Near: which fixed features a body in a cell can touch.
 
 use crate::real::Real;
-use crate::space::cells::{Cells, Ends, Span};
+use crate::space::cells::{Ends, Grid, Span};
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -82,7 +82,7 @@ impl Near {
     pub fn new<T: Real>(
         features: &[Feature<T>],
         images: &[Vec3<T>],
-        cells: &Cells<T>,
+        cells: &Grid<T>,
         radius: T,
     ) -> Self {
         let mut near = Self::default();

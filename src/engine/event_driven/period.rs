@@ -9,15 +9,15 @@ use super::clock::Clock;
 use super::coarse::Scales;
 use super::crossing::plan_crossing;
 use super::flight::{Flight, Record};
-use super::region::Region;
-use super::search::search;
+use super::log::Mark;
+use super::outcome::ended;
+use super::region::{Region, Worker};
+use super::search::{find, search};
 use super::setting::Setting;
-use super::turns::enter;
-use crate::engine::account::Account;
-use crate::motion::flight::Wrap;
+use super::store::Store;
+use super::window::Window;
 use crate::motion::rotation::turned;
 use crate::real::Real;
-use crate::space::Space;
 
 /// How far bodies fly in a period, in mean distances, at the mean speed.
 const FLIGHT: f64 = 8.0;
@@ -39,67 +39,96 @@ const LONGEST: [i32; 2] = [900, 100];
 /// Ends the present period at a time of it, and begins the next one.
 pub(super) fn begin_period<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
+    store: &mut Store<T>,
+    worker: &mut Worker<T>,
     clock: &mut Clock<T>,
-    account: &mut Account,
     end: T,
 ) {
+    let mut region = store.whole(worker, None);
     for slot in 0..region.records.len() {
-        if follows_hollow(setting, region, slot) {
-            let flight = region.records[slot].flight();
-            let since = flight.since - end;
-            region.records[slot] = Record::new(Flight { since, ..flight });
-            turn(region, slot, end, T::ZERO);
+        let flight = region.records[slot].flight();
+        let next = if follows_hollow(setting, &region, slot) {
+            Flight { since: flight.since - end, ..flight }
         } else {
-            end_flight(setting, region, account, slot, end, T::ZERO);
-        }
+            region.worker.account.flight(flight.velocity.length() * (end - flight.since));
+            Flight { since: T::ZERO, ..ended(setting, &flight, end).0 }
+        };
+        region.records[slot] = Record::new(next);
+        turn(&mut region, slot, end, T::ZERO);
+        let Mark { last, before, .. } = region.marks[slot];
+        region.marks[slot] = Mark { stamp: 0, last, before, follows: 0 };
     }
+    worker.stamp = 0;
+    worker.is_too_fast = false;
     let longer = clock.idle_exponent();
-    let counted = clock.end_period(end);
-    region.is_too_fast = false;
-    (clock.period, clock.too_fast) = chosen_period(setting, region, longer);
-    let turns =
-        counted.unwrap_or_else(|| TURNS * region.records.len() as f64 / clock.period.to_f64());
-    region.calendar.begin(clock.period, turns, TOGETHER);
-    sort(setting, region);
-    let scales = scales(setting, region, clock);
-    region.coarse.begin(&region.records, &scales);
-    for slot in 0..region.records.len() as u32 {
-        plan_crossing(setting, region, slot, T::ZERO, clock.period);
-        search(setting, region, &mut account.effort, slot, T::ZERO, clock.period);
-        enter(region, slot);
-    }
+    clock.end_period(end);
+    (clock.period, clock.too_fast) = chosen_period(setting, store, longer);
+    sort(setting, store);
+    let scales = scales(setting, store, clock);
+    store.screening.begin::<T>(&scales);
+    place(setting, store, worker, clock, T::ZERO);
 }
 
-/// Ends the flight of the body in a slot at a time. The next one starts at
-/// `since`, which is that time or, in the next period, its start.
-#[inline(always)]
-pub(super) fn end_flight<T: Real>(
+/// Puts the bodies into cells where they are at a time of the period, all flights being
+/// those of that time, and finds all that is ahead.
+pub(super) fn place<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    account: &mut Account,
-    slot: usize,
-    time: T,
-    since: T,
+    store: &mut Store<T>,
+    worker: &mut Worker<T>,
+    clock: &mut Clock<T>,
+    now: T,
 ) {
-    let (position, velocity) = region.state_of(setting, slot, time);
-    let before = region.records[slot].flight();
-    account.flight(before.velocity.length() * (time - before.since));
-    let mut flight = Flight { position, velocity, since, radius: before.radius };
-    if let Some(space) = setting.periodic {
-        flight.position = space.wrap(position);
-        let turns = space.turns(position - flight.position);
-        let cell = &mut region.agendas[slot].cell;
-        *cell = region.cells.finest().turned_back(*cell, turns);
+    let grid = store.cells.finest();
+    let cell_of = |record: &Record<T>| {
+        let (position, _) = setting.state_of(&record.flight(), now);
+        grid.cell_of(position)
+    };
+    store.agendas.clear();
+    store.agendas.extend(store.records.iter().map(|record| Agenda::new(cell_of(record))));
+    store.coarse.clear();
+    if store.screening.is_useful {
+        let coarse = |record: &Record<T>| store.screening.record(&record.flight());
+        store.coarse.extend(store.records.iter().map(coarse));
     }
-    region.records[slot] = Record::new(flight);
-    turn(region, slot, time, since);
+    if setting.plan.has_pairs {
+        loop {
+            store.cells.clear();
+            let mut region = store.whole(worker, None);
+            for slot in 0..region.agendas.len() {
+                let level = region.level_of(slot);
+                let cell = region.agendas[slot].cell;
+                region.cells.insert(level, cell, slot as u32);
+            }
+            region.make_room();
+            if !store.cells.grow() {
+                break;
+            }
+        }
+    }
+    let is_strict = clock.window.is_none();
+    let len = store.records.len();
+    if is_strict {
+        let turns = clock.turns_per_time();
+        let turns = turns.unwrap_or_else(|| TURNS * len as f64 / clock.period.to_f64());
+        worker.calendar.begin(clock.period, turns, TOGETHER);
+    }
+    store.next.resize(if is_strict { 0 } else { len }, T::ZERO);
+    let window = clock.window.map(|_| Window::closed(worker.stamp));
+    let mut region = store.whole(worker, window);
+    for slot in 0..len as u32 {
+        let cell = region.agendas[slot as usize].cell;
+        plan_crossing(setting, &mut region, slot, now, clock.period);
+        if let Ok(nearby) = find(setting, &mut region, 0, slot, cell) {
+            search(setting, &mut region, slot, nearby, now, clock.period);
+        }
+        region.enter(slot);
+    }
 }
 
 /// Brings the orientation of the body in a slot up to a time, which is `since` in the
 /// next period.
 #[inline(always)]
-fn turn<T: Real>(region: &mut Region<T>, slot: usize, time: T, since: T) {
+pub(super) fn turn<T: Real>(region: &mut Region<'_, T>, slot: usize, time: T, since: T) {
     if let Some((orientation, turned_at)) = region.turned.get_mut(slot) {
         *orientation = turned(*orientation, region.spins[slot], time - *turned_at);
         *turned_at = since;
@@ -110,26 +139,26 @@ fn turn<T: Real>(region: &mut Region<T>, slot: usize, time: T, since: T) {
 /// flat flights along such a one its height is less than the rounding of its place, so
 /// the flight goes on from the contact. Screening in a coarser precision counts on
 /// flights that start within the period; where there is it, digits are enough.
-fn follows_hollow<T: Real>(setting: &Setting<T>, region: &Region<T>, slot: usize) -> bool {
+fn follows_hollow<T: Real>(setting: &Setting<T>, region: &Region<'_, T>, slot: usize) -> bool {
     let is_hollow = |feature: u32| {
         setting.features.get(feature as usize).is_some_and(|feature| feature.is_hollow())
     };
     !setting.plan.has_screening
         && setting.periodic.is_none()
-        && region.records[slot].flight().since > T::ZERO
+        && region.records[slot].since() > T::ZERO
         && region.marks[slot].last.decoded().is_err_and(is_hollow)
 }
 
 /// The power of two nearest below the time that bodies take for a few mean
 /// distances: multiples of it are added up without rounding. And the square of
 /// the speed from which that is too long.
-fn chosen_period<T: Real>(setting: &Setting<T>, region: &Region<T>, longer: u32) -> (T, T) {
+fn chosen_period<T: Real>(setting: &Setting<T>, store: &Store<T>, longer: u32) -> (T, T) {
     if !setting.plan.has_pairs && setting.features.is_empty() {
         return (T::from_f64(longest::<T>()), T::from_f64(longest::<T>()));
     }
-    let len = region.records.len();
+    let len = store.records.len();
     let mut squares = vec![0.0; len];
-    for (record, &index) in region.records.iter().zip(&region.index) {
+    for (record, &index) in store.records.iter().zip(&store.index) {
         squares[index as usize] = record.flight().velocity.length_squared().to_f64();
     }
     // In the scene's order: the sum must not depend on slots.
@@ -150,19 +179,19 @@ fn longest<T: Real>() -> f64 {
 }
 
 /// What the errors of the coarse precision are measured by.
-fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -> Scales {
+fn scales<T: Real>(setting: &Setting<T>, store: &Store<T>, clock: &Clock<T>) -> Scales {
     let greatest = |most: f64, value: T| most.max(value.to_f64().abs());
-    let extent = region.records.iter().fold(0.0, |most, record| {
+    let extent = store.records.iter().fold(0.0, |most, record| {
         record.flight().position.to_array().into_iter().fold(most, greatest)
     });
-    let least = region
+    let least = store
         .records
         .iter()
         .fold(f64::INFINITY, |least: f64, record| least.min(record.flight().radius.to_f64()));
     let fallen = setting.gravity.length().to_f64() * clock.period.to_f64();
     Scales {
         extent,
-        neighbourhood: region.cells.coarsest().neighbourhood(),
+        neighbourhood: store.cells.coarsest().neighbourhood(),
         reach: 2.0 * least,
         speed: clock.too_fast.to_f64().sqrt() + fallen,
         period: clock.period.to_f64(),
@@ -170,35 +199,23 @@ fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -
 }
 
 /// Sorts the bodies by cell: neighbours in space become neighbours in memory.
-fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
-    let cells = &mut region.cells;
-    cells.clear();
-    let cells = cells.finest();
-    // A flight may have started before the period.
-    let cell_of = |record: &Record<T>| {
+fn sort<T: Real>(setting: &Setting<T>, store: &mut Store<T>) {
+    let cells = store.cells.finest();
+    let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(store.records.len());
+    for (slot, record) in store.records.iter().enumerate() {
+        // A flight may have started before the period.
         let (position, _) = setting.state_of(&record.flight(), T::ZERO);
-        cells.cell_of(position)
-    };
-    let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(region.records.len());
-    for (slot, record) in region.records.iter().enumerate() {
-        order.push((cells.number_of(cell_of(record)), region.index[slot], slot as u32));
+        let cell = cells.number_of(cells.cell_of(position));
+        order.push((cell, store.index[slot], slot as u32));
     }
     order.sort_unstable();
-    region.records = reordered(&region.records, &order);
-    region.index = order.iter().map(|slot| slot.1).collect();
-    if !region.turned.is_empty() {
-        region.spins = reordered(&region.spins, &order);
-        region.turned = reordered(&region.turned, &order);
+    store.records = reordered(&store.records, &order);
+    store.index = order.iter().map(|slot| slot.1).collect();
+    if !store.turned.is_empty() {
+        store.spins = reordered(&store.spins, &order);
+        store.turned = reordered(&store.turned, &order);
     }
-    region.marks = reordered(&region.marks, &order);
-    region.agendas = region.records.iter().map(|record| Agenda::new(cell_of(record))).collect();
-    if setting.plan.has_pairs {
-        for (slot, agenda) in region.agendas.iter().enumerate() {
-            let level = region.level_of(slot);
-            region.cells.insert(level, agenda.cell, slot as u32);
-        }
-        region.make_room();
-    }
+    store.marks = reordered(&store.marks, &order);
 }
 
 /// What each slot of an order, its third number, holds.

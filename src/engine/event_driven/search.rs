@@ -1,52 +1,78 @@
 //! Search: what a body will meet.
 
 use super::agenda::{Expected, PartnerCode};
+use super::coarse::put_down;
 use super::features::search_features;
 use super::flight::{Flight, WIDEST};
+use super::key::Keys;
+use super::log::Logs;
 use super::meeting::{TOGETHER, meeting};
-use super::region::Region;
+use super::region::{Region, base};
 use super::setting::Setting;
-use crate::engine::account::Effort;
 use crate::engine::plan::Plan;
-use crate::lane::Lane;
+use crate::lane::{Lane, Mask};
 use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use crate::real::Real;
-use crate::space::cells::Cells;
+use crate::space::cells::Grid;
 use crate::space::{OpenSpace, Space};
 use crate::vec3::Vec3;
 
-/// Looks for the contacts of the body in a slot with the `len` bodies found.
-pub(super) type Search<T> =
-    fn(&Setting<T>, &mut Region<T>, &mut Effort, slot: u32, len: usize, now: T);
+/// Some of the work has to wait: it needs what another worker holds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Blocked;
 
-/// Finds again what the body in a slot will meet in a period of this length.
+/// Bodies found near one: the number of the list they are in, and how many there are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearby {
+    pub list: usize,
+    pub len: usize,
+}
+
+/// Looks for the contacts of the body in a slot with bodies found near it.
+pub(super) type Search<T> = fn(&Setting<T>, &mut Region<'_, T>, slot: u32, Nearby, now: T);
+
+/// Finds the bodies of its own level near the body in a slot, which is in a cell or is
+/// about to enter it. Before the first write: it may be blocked.
+#[inline(always)]
+pub(super) fn find<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<'_, T>,
+    list: usize,
+    slot: u32,
+    cell: [i32; 3],
+) -> Result<Nearby, Blocked> {
+    if !setting.plan.has_pairs {
+        return Ok(Nearby { list, len: 0 });
+    }
+    let level = region.level_of(slot as usize);
+    let cell = region.cells.cell_at(level, cell);
+    let len = region.cells.at(level).around(cell, &mut region.worker.found[list]).ok_or(Blocked)?;
+    if region.holds_found(list, len) { Ok(Nearby { list, len }) } else { Err(Blocked) }
+}
+
+/// Finds again what the body in a slot will meet in a period of this length; bodies of
+/// its own level have been found.
+#[inline(always)]
 pub(super) fn search<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    effort: &mut Effort,
+    region: &mut Region<'_, T>,
     slot: u32,
+    nearby: Nearby,
     now: T,
     period: T,
 ) {
-    let agenda = &mut region.agendas[slot as usize];
-    agenda.clear(period);
-    let cell = agenda.cell;
+    region.agendas[slot as usize].clear(period);
     if setting.plan.features > 0 {
         search_features(setting, region, slot);
     }
     if setting.plan.has_pairs {
-        if region.cells.len() == 1 {
-            let len = region.cells.finest().around(cell, &mut region.found);
-            (setting.search_bodies)(setting, region, effort, slot, len, now);
-            return;
-        }
-        let level = region.level_of(slot as usize);
-        let own = region.cells.cell_at(level, cell);
-        let len = region.cells.at(level).around(own, &mut region.found);
-        (setting.search_bodies)(setting, region, effort, slot, len, now);
-        search_greater(setting, region, effort, slot, level, now);
-        for finer in level + 1..region.cells.len() {
-            search_shell(setting, region, effort, slot, [level, finer], now);
+        (setting.search_bodies)(setting, region, slot, nearby, now);
+        if region.cells.len() > 1 {
+            let level = region.level_of(slot as usize);
+            search_greater(setting, region, slot, level, now);
+            for finer in level + 1..region.cells.len() {
+                search_shell(setting, region, slot, [level, finer], now);
+            }
         }
     }
 }
@@ -55,17 +81,16 @@ pub(super) fn search<T: Real>(
 /// levels.
 pub(super) fn search_greater<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    effort: &mut Effort,
+    region: &mut Region<'_, T>,
     slot: u32,
     level: usize,
     now: T,
 ) {
     for coarser in 0..level {
         let cell = region.cells.cell_at(coarser, region.agendas[slot as usize].cell);
-        let len = region.cells.at(coarser).around(cell, &mut region.found);
-        if len > 0 {
-            (setting.search_bodies)(setting, region, effort, slot, len, now);
+        let len = region.cells.at(coarser).around(cell, &mut region.worker.found[0]);
+        if let Some(len) = len.filter(|&len| len > 0) {
+            (setting.search_bodies)(setting, region, slot, Nearby { list: 0, len }, now);
         }
     }
 }
@@ -74,37 +99,35 @@ pub(super) fn search_greater<T: Real>(
 /// of the second, finer one.
 pub(super) fn search_shell<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    effort: &mut Effort,
+    region: &mut Region<'_, T>,
     slot: u32,
     [level, finer]: [usize; 2],
     now: T,
 ) {
     let middle = region.cells.cell_at(finer, region.agendas[slot as usize].cell);
-    let cells = region.cells.at(finer);
     // Room for one more cell, and to fill up the last pack.
-    let full = region.found.len() - cells.most_in_cell() - WIDEST;
+    let most_in_cell = region.cells.at(finer).most_in_cell();
+    let full = region.worker.found[0].len() - most_in_cell - WIDEST;
     let mut len = 0;
-    for row in 0..region.cells.shell(level, finer).len() {
-        for cell in region.cells.shell(level, finer)[row].cells(middle) {
-            len = region.cells.at(finer).read_cell(cell, &mut region.found, len);
+    for row in region.cells.shell(level, finer) {
+        for cell in row.cells(middle) {
+            len = region.cells.at(finer).read_cell(cell, &mut region.worker.found[0], len);
             if len > full {
-                (setting.search_bodies)(setting, region, effort, slot, len, now);
+                (setting.search_bodies)(setting, region, slot, Nearby { list: 0, len }, now);
                 len = 0;
             }
         }
     }
     if len > 0 {
-        (setting.search_bodies)(setting, region, effort, slot, len, now);
+        (setting.search_bodies)(setting, region, slot, Nearby { list: 0, len }, now);
     }
 }
 
 fn search_open<T, L, C, F>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    effort: &mut Effort,
+    region: &mut Region<'_, T>,
     slot: u32,
-    len: usize,
+    nearby: Nearby,
     now: T,
 ) where
     T: Real,
@@ -112,16 +135,16 @@ fn search_open<T, L, C, F>(
     C: Lane<Scalar = T::Coarse>,
     F: FlightStep,
 {
-    let search = Found { setting, slot, now, space: OpenSpace, coarse: OpenSpace };
-    search.run::<L, C, F>(region, effort, len);
+    let list = nearby.list;
+    let search = Found { setting, slot, list, now, space: OpenSpace, coarse: OpenSpace };
+    search.run::<L, C, F>(region, nearby.len);
 }
 
 fn search_periodic<T, L, C, F>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
-    effort: &mut Effort,
+    region: &mut Region<'_, T>,
     slot: u32,
-    len: usize,
+    nearby: Nearby,
     now: T,
 ) where
     T: Real,
@@ -129,9 +152,9 @@ fn search_periodic<T, L, C, F>(
     C: Lane<Scalar = T::Coarse>,
     F: FlightStep,
 {
-    if let (Some(space), Some(coarse)) = (setting.periodic, region.coarse.periodic) {
-        let search = Found { setting, slot, now, space, coarse };
-        search.run::<L, C, F>(region, effort, len);
+    if let (Some(space), Some(coarse)) = (setting.periodic, region.screening.periodic) {
+        let search = Found { setting, slot, list: nearby.list, now, space, coarse };
+        search.run::<L, C, F>(region, nearby.len);
     }
 }
 
@@ -139,6 +162,8 @@ fn search_periodic<T, L, C, F>(
 struct Found<'a, T: Real, S, R> {
     setting: &'a Setting<T>,
     slot: u32,
+    /// The list of bodies found.
+    list: usize,
     now: T,
     space: S,
     coarse: R,
@@ -146,70 +171,97 @@ struct Found<'a, T: Real, S, R> {
 
 impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
     #[inline(always)]
-    fn run<L, C, F>(&self, region: &mut Region<T>, effort: &mut Effort, len: usize)
+    fn run<L, C, F>(&self, region: &mut Region<'_, T>, len: usize)
     where
         L: Lane<Scalar = T>,
         C: Lane<Scalar = T::Coarse>,
         F: FlightStep,
     {
-        effort.tried += len as u64;
-        if region.records[self.slot as usize].flight().since == self.now {
-            let len = self.screened::<C, F, true>(region, len);
-            effort.remaining += len as u64;
-            self.search_packs::<L, F, true>(region, len);
+        region.worker.account.effort.tried += len as u64;
+        // In a window others may start later than now.
+        let has_pasts = region.has_pasts();
+        region.worker.later.clear();
+        if region.records[self.slot as usize].since() == self.now {
+            let len = self.screened::<C, F, true>(region, len, has_pasts);
+            region.worker.account.effort.remaining += len as u64;
+            if has_pasts {
+                self.search_packs::<L, F, false>(region, len, true);
+            } else {
+                self.search_packs::<L, F, true>(region, len, false);
+            }
         } else {
-            let len = self.screened::<C, F, false>(region, len);
-            effort.remaining += len as u64;
-            self.search_packs::<L, F, false>(region, len);
+            let len = self.screened::<C, F, false>(region, len, has_pasts);
+            region.worker.account.effort.remaining += len as u64;
+            self.search_packs::<L, F, false>(region, len, has_pasts);
+        }
+        if has_pasts {
+            self.search_pasts::<F>(region);
         }
     }
 
     /// Passes over those of the bodies found that cannot be met. The last pack
     /// is filled up with the body itself, which never meets itself.
     #[inline(always)]
-    fn screened<C, F, const STARTS: bool>(&self, region: &mut Region<T>, len: usize) -> usize
+    fn screened<C, F, const STARTS: bool>(
+        &self,
+        region: &mut Region<'_, T>,
+        len: usize,
+        has_pasts: bool,
+    ) -> usize
     where
         C: Lane<Scalar = T::Coarse>,
         F: FlightStep,
     {
         // Otherwise the coarse precision is this one.
-        if const { size_of::<T::Coarse>() == size_of::<T>() } || !region.coarse.is_useful {
+        if const { size_of::<T::Coarse>() == size_of::<T>() } || !region.screening.is_useful {
             return len;
         }
         let whole = len.next_multiple_of(C::WIDTH);
-        let found = &mut region.found[..whole];
+        let found = &mut region.worker.found[self.list][..whole];
         found[len..].fill(self.slot);
         let now = T::Coarse::from_f64(self.now.to_f64());
-        let further = &self.setting.coarse_further;
-        region.coarse.screen::<C, F, R, STARTS>(self.slot, found, now, self.coarse, further)
+        let images = (self.coarse, &self.setting.coarse_further[..]);
+        let later = has_pasts.then_some(&mut region.worker.later);
+        let (screening, coarse) = (region.screening, &region.coarse);
+        screening.screen::<C, F, R, STARTS>(coarse, self.slot, found, now, images, later)
     }
 
     /// Looks for contacts with the bodies found, in whole packs, the last one
     /// filled up with the body itself.
     #[inline(always)]
-    fn search_packs<L, F, const STARTS: bool>(&self, region: &mut Region<T>, len: usize)
-    where
+    fn search_packs<L, F, const STARTS: bool>(
+        &self,
+        region: &mut Region<'_, T>,
+        len: usize,
+        has_pasts: bool,
+    ) where
         L: Lane<Scalar = T>,
         F: FlightStep,
     {
-        let &Self { setting, slot, now, space, .. } = self;
+        let &Self { setting, slot, list, now, space, .. } = self;
         let end = len.next_multiple_of(L::WIDTH);
-        region.found[len..end].fill(slot);
+        region.worker.found[list][len..end].fill(slot);
         let own = region.records[slot as usize].flight();
         let (flight, gravity) = (Flight::<L>::splat(&own), Vec3::<L>::splat(setting.gravity));
         let at = L::splat(now);
+        let is_unscreened = has_pasts && !region.screening.is_useful;
         for &image in &setting.further {
             let further = Vec3::<L>::splat(image);
             for start in (0..end).step_by(TOGETHER) {
                 let end = end.min(start + TOGETHER);
-                for (pack, found) in region.found[start..end].chunks_exact(L::WIDTH).enumerate() {
+                let worker = &mut *region.worker;
+                let packs = worker.found[list][start..end].chunks_exact(L::WIDTH);
+                for (pack, found) in packs.enumerate() {
                     let others = Flight::<L>::gather(&region.records, found);
+                    if is_unscreened {
+                        put_down(others.since.ge(at).bits(), found, &mut worker.later);
+                    }
                     let met =
                         meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, at);
-                    region.meetings.put(pack * L::WIDTH, &met);
+                    worker.meetings.put(pack * L::WIDTH, &met);
                 }
-                while let Some((k, time)) = region.meetings.take() {
-                    let other = region.found[start + k];
+                while let Some((k, time)) = region.worker.meetings.take() {
+                    let other = region.worker.found[list][start + k];
                     if time.ge(region.agendas[slot as usize].complete_until()) {
                         continue;
                     }
@@ -225,10 +277,62 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
                             continue;
                         }
                     }
-                    let changes = region.marks[other as usize].changes;
+                    let stamp = region.marks[other as usize].stamp;
                     let partner = PartnerCode::body(other);
-                    keep(region, slot, Expected { time, partner, changes });
+                    keep(region, slot, Expected { time, partner, stamp });
                 }
+            }
+        }
+    }
+
+    /// Looks for contacts with the flights that others have ended since now in this
+    /// window. Such a contact is expected like any other: when its time comes, what the
+    /// other has met afterwards is taken back.
+    #[inline(never)]
+    fn search_pasts<F: FlightStep>(&self, region: &mut Region<'_, T>) {
+        while let Some(other) = region.worker.later.pop() {
+            let mark = region.marks[other as usize];
+            if other != self.slot && region.has_past(&mark) {
+                self.search_pasts_of::<F>(region, other);
+            }
+        }
+    }
+
+    fn search_pasts_of<F: FlightStep>(&self, region: &mut Region<'_, T>, other: u32) {
+        let &Self { setting, slot, now, space, .. } = self;
+        let own = region.records[slot as usize].flight();
+        let own_mark = region.marks[slot as usize];
+        let radius = region.records[other as usize].radius();
+        let mut mark = region.marks[other as usize];
+        while region.has_past(&mark) {
+            let past = *region.past(mark.before);
+            if past.end < now {
+                return;
+            }
+            mark = past.mark;
+            // What follows the own start comes after an end that does not.
+            let is_after = past.end == own.since && past.generation < own_mark.follows;
+            if is_after {
+                continue;
+            }
+            let flight = past.flight(radius);
+            let (gravity, still) = (setting.gravity, Vec3::ZERO);
+            let met = meeting::<T, F, S, false>(&own, &flight, gravity, space, still, now);
+            let (meets, time) = met.contact();
+            let expected =
+                Expected { time, partner: PartnerCode::body(other), stamp: past.mark.stamp };
+            let is_before_end = || {
+                time < past.end
+                    || time == past.end
+                        && region.keys().of(slot, &expected) < past.end_key(region.index, other)
+            };
+            let have_met = own_mark.last == PartnerCode::body(region.index[other as usize])
+                && past.mark.last == PartnerCode::body(region.index[slot as usize]);
+            if meets && is_before_end() && !(have_met && met.is_touching()) {
+                keep(region, slot, expected);
+            }
+            if past.since < now {
+                return;
             }
         }
     }
@@ -236,30 +340,23 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
 
 /// Keeps a contact of the body in a slot if it is among its first.
 #[inline(always)]
-pub(super) fn keep<T: Real>(region: &mut Region<T>, slot: u32, found: Expected<T>) {
-    let index = &region.index;
-    let comes_first = |a, b| rank(index, slot, a) < rank(index, slot, b);
+pub(super) fn keep<T: Real>(region: &mut Region<'_, T>, slot: u32, found: Expected<T>) {
+    let keys = Keys {
+        records: &region.records,
+        marks: &region.marks,
+        index: region.index,
+        logs: Logs { own: &region.worker.log, others: region.logs },
+        base: base(&region.window),
+    };
+    let comes_first = |a: &Expected<T>, b: &Expected<T>| keys.of(slot, a) < keys.of(slot, b);
     region.agendas[slot as usize].keep(found, comes_first);
 }
 
 /// Whether each of two bodies has met no other since they met each other.
 #[inline(always)]
-fn met_last<T: Real>(region: &Region<T>, a: usize, b: usize) -> bool {
+fn met_last<T: Real>(region: &Region<'_, T>, a: usize, b: usize) -> bool {
     let is_last = |a: usize, b: usize| region.marks[a].last == PartnerCode::body(region.index[b]);
     is_last(a, b) && is_last(b, a)
-}
-
-/// The order of contacts at equal times: by the first body of the scene, the
-/// surroundings before other bodies.
-pub(super) fn rank(index: &[u32], slot: u32, partner: PartnerCode) -> (u32, bool, u32) {
-    let own = index[slot as usize];
-    match partner.decoded() {
-        Ok(other) => {
-            let other = index[other as usize];
-            (own.min(other), true, own.max(other))
-        }
-        Err(feature) => (own, false, feature),
-    }
 }
 
 /// The search of a plan. Widths that the plan of a precision never chooses are
@@ -300,7 +397,7 @@ where
 
 /// The images of a pair, besides the nearest, that can be near at once, and the
 /// nearest, in whole boxes.
-pub(super) fn further<T: Real, R: Real>(cells: &Cells<T>, is_periodic: bool) -> Vec<Vec3<R>> {
+pub(super) fn further<T: Real, R: Real>(cells: &Grid<T>, is_periodic: bool) -> Vec<Vec3<R>> {
     let is_narrow = |axis: usize| is_periodic && cells.is_narrow(axis);
     let along = |axis: usize| if is_narrow(axis) { -1..=1 } else { 0..=0 };
     let mut further = Vec::new();

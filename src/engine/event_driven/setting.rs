@@ -6,6 +6,7 @@ use super::search::{Search, further, searcher};
 use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
 use crate::engine::plan::{Plan, Turning};
+use crate::engine::{Execution, Order};
 use crate::motion::integrator::{Coasting, VelocityVerlet};
 use crate::real::Real;
 use crate::scene::Scene;
@@ -53,7 +54,7 @@ pub(super) struct Setting<T: Real> {
 
 impl<T: Real> Setting<T> {
     /// What a scene and its plan say, and the grid of its cells, still empty.
-    pub fn new(scene: Scene<T>, plan: Plan) -> (Self, Levels<T>) {
+    pub fn new(scene: Scene<T>, mut plan: Plan, execution: Execution) -> (Self, Levels<T>) {
         let bodies = scene.bodies;
         let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
         let (features, parts) = features_of(met);
@@ -77,7 +78,8 @@ impl<T: Real> Setting<T> {
         let fitting = |span| Levels::fitting(span, &bodies.radius, len, bounded);
         // Each image of a solid without end would be near everywhere.
         let can_fold = !is_periodic || bounded == features.len();
-        let is_few = !is_periodic && len + features.len() <= FEW;
+        let is_few =
+            !is_periodic && len + features.len() <= FEW && execution.order != Order::Windows;
         let folded = || {
             let cells = fitting(grid.folded(least, radius + radius, &bodies.position));
             cells.finest().can_number(&grid).then_some(cells)
@@ -87,6 +89,10 @@ impl<T: Real> Setting<T> {
             () if can_fold => folded().unwrap_or_else(|| fitting(grid)),
             () => fitting(grid),
         };
+        // Windows want one grid, and a pair near by one image only.
+        let is_wide = !is_periodic || !(0..3).any(|axis| cells.coarsest().is_narrow(axis));
+        let can_be_windows = plan.has_pairs && !is_few && cells.len() == 1 && is_wide;
+        plan.choose_order(execution, can_be_windows);
         let near = Near::new(&features, &images, cells.finest(), radius);
         let setting = Self {
             gravity: scene.gravity,

@@ -1,78 +1,119 @@
-//! Turns: body after body, the earliest first.
+//! Turns: body after body in strict order of time.
 
 use core::cmp::Ordering;
 
-use super::agenda::{Agenda, Next};
+use super::agenda::Next;
 use super::calendar::Turn;
 use super::clock::Clock;
 use super::collide::{collide_pair, collide_with_feature};
 use super::crossing::cross;
-use super::region::Region;
-use super::search::{rank, search};
+use super::key::{Keys, Rank};
+use super::log::Logs;
+use super::region::{Region, base};
+use super::report::{feature_event, pair_event};
+use super::search::{Blocked, find, search};
 use super::setting::Setting;
 use crate::engine::Listener;
-use crate::engine::account::Account;
 use crate::real::Real;
 
 /// The next turn, left in the calendar.
 #[inline(always)]
-pub(super) fn next_turn<T: Real>(region: &mut Region<T>) -> Option<Turn<T>> {
-    let (agendas, index) = (&region.agendas, &region.index);
-    region
-        .calendar
-        .next(|slot| agendas[slot as usize].next_time(), |a, b| order(agendas, index, a, b))
+pub(super) fn next_turn<T: Real>(region: &mut Region<'_, T>) -> Option<Turn<T>> {
+    let agendas = &region.agendas;
+    let keys = Keys {
+        records: &region.records,
+        marks: &region.marks,
+        index: region.index,
+        logs: Logs { own: &region.worker.log, others: region.logs },
+        base: base(&region.window),
+    };
+    let next = |slot: u32| agendas[slot as usize].next();
+    let time_of = |slot: u32| agendas[slot as usize].next_time();
+    region.worker.calendar.next(time_of, |a, b| order(&keys, next, a, b))
 }
 
-/// Enters the next turn of the body in a slot.
+/// Enters a turn.
 #[inline(always)]
-pub(super) fn enter<T: Real>(region: &mut Region<T>, slot: u32) {
-    let time = region.agendas[slot as usize].next_time();
-    let (agendas, index) = (&region.agendas, &region.index);
-    region.calendar.enter(Turn { time, slot }, |a, b| order(agendas, index, a, b));
+pub(super) fn enter<T: Real>(region: &mut Region<'_, T>, turn: Turn<T>) {
+    let agendas = &region.agendas;
+    let keys = Keys {
+        records: &region.records,
+        marks: &region.marks,
+        index: region.index,
+        logs: Logs { own: &region.worker.log, others: region.logs },
+        base: base(&region.window),
+    };
+    let next = |slot: u32| agendas[slot as usize].next();
+    region.worker.calendar.enter(turn, |a, b| order(&keys, next, a, b));
 }
 
-/// Takes a turn. Returns whether it was a collision.
+/// Takes a turn. Returns whether it was a collision. Blocked only where not all bodies
+/// are held.
 #[inline(always)]
 pub(super) fn take_turn<T: Real>(
     setting: &Setting<T>,
-    region: &mut Region<T>,
+    region: &mut Region<'_, T>,
     clock: &Clock<T>,
-    account: &mut Account,
     turn: Turn<T>,
     on_event: &mut Listener<'_, T>,
-) -> bool {
+) -> Result<bool, Blocked> {
     let Turn { time, slot } = turn;
-    let effort = &mut account.effort;
+    let cell = region.agendas[slot as usize].cell;
     match region.agendas[slot as usize].next() {
-        Next::LeavesCell => cross(setting, region, effort, slot, time, clock.period),
+        Next::LeavesCell => cross(setting, region, slot, time, clock.period)?,
         Next::Searches => {
-            effort.searches += 1;
-            search(setting, region, effort, slot, time, clock.period);
+            let nearby = find(setting, region, 0, slot, cell)?;
+            region.worker.account.effort.searches += 1;
+            search(setting, region, slot, nearby, time, clock.period);
         }
-        Next::Meets(expected) => match expected.partner.decoded() {
-            Err(feature) => {
-                let contact = (slot, feature);
-                collide_with_feature(setting, region, clock, account, contact, time, on_event);
-                return true;
+        Next::Meets(expected) => {
+            let when = (time, region.keys().generation(slot, &expected));
+            match expected.partner.decoded() {
+                Err(feature) => {
+                    let nearby = find(setting, region, 0, slot, cell)?;
+                    let contact = (slot, feature);
+                    let made = collide_with_feature(setting, region, clock, contact, nearby, when);
+                    if let Some(on_event) = on_event {
+                        let part = setting.parts[feature as usize];
+                        let bodies = (region.index[slot as usize], part);
+                        on_event(&feature_event(clock, bodies, &made, time));
+                    }
+                    return Ok(true);
+                }
+                Ok(other) if region.marks[other as usize].stamp == expected.stamp => {
+                    let is_first = region.index[slot as usize] < region.index[other as usize];
+                    let pair = if is_first { [slot, other] } else { [other, slot] };
+                    let cells = pair.map(|slot| region.agendas[slot as usize].cell);
+                    let nearby = [
+                        find(setting, region, 0, pair[0], cells[0])?,
+                        find(setting, region, 1, pair[1], cells[1])?,
+                    ];
+                    let made = collide_pair(setting, region, clock, pair, nearby, when);
+                    if let Some(on_event) = on_event {
+                        let bodies = pair.map(|slot| region.index[slot as usize]);
+                        on_event(&pair_event(clock, bodies, &made, time));
+                    }
+                    return Ok(true);
+                }
+                Ok(_) => region.agendas[slot as usize].drop_first(),
             }
-            Ok(other) if region.marks[other as usize].changes == expected.changes => {
-                let pair = [slot, other];
-                collide_pair(setting, region, clock, account, pair, time, on_event);
-                return true;
-            }
-            Ok(_) => region.agendas[slot as usize].drop_first(),
-        },
+        }
     }
-    enter(region, slot);
-    false
+    region.enter(slot);
+    Ok(false)
 }
 
 /// The order of turns at equal times: what is no collision first, so that all
 /// collisions of that time are known before one happens.
-fn order<T: Real>(agendas: &[Agenda<T>], index: &[u32], a: u32, b: u32) -> Ordering {
-    let of = |slot: u32| match agendas[slot as usize].next() {
-        Next::Meets(expected) => Some(rank(index, slot, expected.partner)),
-        _ => None,
+fn order<T: Real>(keys: &Keys<'_, T>, next: impl Fn(u32) -> Next<T>, a: u32, b: u32) -> Ordering {
+    let of = |slot: u32| -> Option<(u32, Rank)> {
+        match next(slot) {
+            Next::Meets(expected) => {
+                let key = keys.of(slot, &expected);
+                Some((key.generation, key.rank))
+            }
+            _ => None,
+        }
     };
     of(a).cmp(&of(b))
 }

@@ -83,12 +83,15 @@ impl Settings {
     /// compared with.
     pub(super) fn variants(&self, size: usize) -> Vec<Execution> {
         let (threads, lanes) = (self.threads[0], self.lanes[0]);
-        let swept = self.threads.iter().map(|&threads| Execution { threads, lanes });
+        let swept =
+            self.threads.iter().map(|&threads| Execution::new().threads(threads).lanes(lanes));
         let others = match size == (self.bodies.len() - 1) / 2 {
             true => &self.lanes[1..],
             false => &[],
         };
-        swept.chain(others.iter().map(|&lanes| Execution { threads, lanes })).collect()
+        swept
+            .chain(others.iter().map(|&lanes| Execution::new().threads(threads).lanes(lanes)))
+            .collect()
     }
 }
 

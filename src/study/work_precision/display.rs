@@ -103,7 +103,9 @@ impl WorkPrecisionReport {
             format!("{}, {precision}", if *stepped { "stepped" } else { "event-driven" })
         });
         table.row("", heads);
-        for (k, Execution { lanes, threads }) in self.sweep.executions.iter().enumerate().skip(1) {
+        for (k, Execution { lanes, threads, .. }) in
+            self.sweep.executions.iter().enumerate().skip(1)
+        {
             let ratio = |(stepped, precision): &(bool, Precision)| {
                 let methods = self.sweep.methods.iter().zip(&self.outcomes);
                 let ratios: Vec<f64> = methods
@@ -155,7 +157,7 @@ impl fmt::Display for WorkPrecisionReport {
             plain(self.time)
         )?;
         writeln!(f, "{}", self.machine)?;
-        if let Some(Execution { lanes, threads }) = self.sweep.executions.first() {
+        if let Some(Execution { lanes, threads, .. }) = self.sweep.executions.first() {
             let threads = counted(*threads as u64, "thread");
             writeln!(f, "Times: median of {} runs, lanes {lanes}, {threads}.", self.sweep.runs)?;
         }

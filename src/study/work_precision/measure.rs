@@ -106,7 +106,7 @@ fn timed_run<T: Compiled>(
         Ok::<_, EngineError>(world)
     });
     let world = world?;
-    let Execution { lanes, threads } = execution;
+    let Execution { lanes, threads, .. } = execution;
     if state_hash(&world.bodies()) != hash {
         let what = format!("{method}: other bits in lanes {lanes} on {threads} threads");
         return Err(StudyError::DifferentBits(what));

@@ -184,7 +184,7 @@ fn ladder(file: &SceneFile, scene: &Scene<f64>, horizon: &Horizon, end: f64) -> 
 /// The fastest lanes on one thread and on all, and one lane on one thread.
 fn executions(asked: &Asked) -> Vec<Execution> {
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let of = |lanes, threads| Execution { lanes, threads };
+    let of = |lanes, threads| Execution::new().lanes(lanes).threads(threads);
     if asked.lanes.is_empty() && asked.threads.is_empty() {
         let mut usual = vec![of(Lanes::Auto, 1), of(Lanes::Scalar, 1)];
         if cores > 1 {

@@ -1,0 +1,54 @@
+//! Report: collisions as they are told to who listens.
+
+use super::clock::Clock;
+use super::outcome::{FeatureOutcome, PairOutcome};
+use crate::engine::{Event, Partner};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The collision of two bodies of the scene at a time.
+pub(super) fn pair_event<T: Real>(
+    clock: &Clock<T>,
+    [a, b]: [u32; 2],
+    made: &PairOutcome<T>,
+    time: T,
+) -> Event<T> {
+    let [own, other] = &made.departures;
+    let partner = Partner::Body { index: b, velocity: other.flight.velocity, spin: other.spin };
+    Event {
+        time: clock.not_before(time),
+        a,
+        partner,
+        point: own.flight.position - made.arm,
+        normal: unit(made.offset),
+        normal_impulse: made.impulse.normal.length(),
+        tangential_impulse: made.impulse.tangential,
+        velocity: own.flight.velocity,
+        spin: own.spin,
+    }
+}
+
+/// The collision of a body of the scene with a part of the surroundings at a time.
+pub(super) fn feature_event<T: Real>(
+    clock: &Clock<T>,
+    (a, part): (u32, u32),
+    made: &FeatureOutcome<T>,
+    time: T,
+) -> Event<T> {
+    let own = &made.departure;
+    Event {
+        time: clock.not_before(time),
+        a,
+        partner: Partner::Surroundings(part),
+        point: own.flight.position - made.arm,
+        normal: unit(made.arm),
+        normal_impulse: made.impulse.normal.length(),
+        tangential_impulse: made.impulse.tangential,
+        velocity: own.flight.velocity,
+        spin: own.spin,
+    }
+}
+
+fn unit<T: Real>(offset: Vec3<T>) -> Vec3<T> {
+    offset * (T::ONE / offset.length())
+}

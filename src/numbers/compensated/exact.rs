@@ -1,0 +1,172 @@
+//! Exact sum: the sum of doubles, whatever their order.
+
+/// Binary digits of a limb.
+const DIGITS: u32 = 32;
+
+/// Limbs for all digits of all doubles, and for the carries beyond.
+const LIMBS: usize = 69;
+
+/// Terms after which carries are passed on: each adds less than 2³² to a limb of 63
+/// digits.
+const MOST_PENDING: u32 = 1 << 30;
+
+/// A sum of doubles without any rounding, so that it does not depend on their order: a
+/// term can be taken back by adding its negative, and sums of parts can be merged (a
+/// small superaccumulator: R. M. Neal, *Fast exact summation using small and large
+/// superaccumulators*, 2015). Terms that are not finite add up to what is not finite.
+///
+/// ```
+/// use carom::compensated::ExactSum;
+/// let mut sum = ExactSum::default();
+/// [1e300, 1.0, 1e-300, -1e300, -1e-300].into_iter().for_each(|term| sum.add(term));
+/// assert_eq!(sum.value(), 1.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct ExactSum {
+    /// Digits from that of 2⁻¹⁰⁷⁴ on, each limb with those that it has to pass on.
+    limbs: [i64; LIMBS],
+    pending: u32,
+    /// The sum of the terms that are not finite.
+    boundless: f64,
+}
+
+impl Default for ExactSum {
+    fn default() -> Self {
+        Self { limbs: [0; LIMBS], pending: 0, boundless: 0.0 }
+    }
+}
+
+impl ExactSum {
+    /// Adds a term.
+    #[inline]
+    pub fn add(&mut self, term: f64) {
+        let bits = term.to_bits();
+        let exponent = (bits >> 52) as usize & 0x7FF;
+        if exponent == 0x7FF {
+            self.boundless += term;
+            return;
+        }
+        let hidden = u64::from(exponent != 0) << 52;
+        let mantissa = bits & ((1 << 52) - 1) | hidden;
+        let place = exponent.saturating_sub(1);
+        let shifted = u128::from(mantissa) << (place % DIGITS as usize);
+        let first = place / DIGITS as usize;
+        for (k, limb) in self.limbs[first..first + 3].iter_mut().enumerate() {
+            let digits = i64::from((shifted >> (DIGITS * k as u32)) as u32);
+            *limb += if bits >> 63 == 0 { digits } else { -digits };
+        }
+        self.pending += 1;
+        if self.pending == MOST_PENDING {
+            self.carry();
+        }
+    }
+
+    /// Adds all terms of another sum.
+    pub fn merge(&mut self, other: &Self) {
+        let mut other = other.clone();
+        other.carry();
+        self.carry();
+        for (limb, more) in self.limbs.iter_mut().zip(other.limbs) {
+            *limb += more;
+        }
+        self.pending = 1;
+        self.boundless += other.boundless;
+    }
+
+    /// Passes on what limbs have beyond their digits.
+    fn carry(&mut self) {
+        let mut carried = 0;
+        let (last, others) = self.limbs.split_last_mut().unwrap_or((&mut carried, &mut []));
+        let mut carry = 0;
+        for limb in others {
+            let whole = *limb + carry;
+            carry = whole >> DIGITS;
+            *limb = whole & ((1 << DIGITS) - 1);
+        }
+        *last += carry;
+        self.pending = 0;
+    }
+
+    /// The sum, rounded once, to nearest.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        if self.boundless != 0.0 || self.boundless.is_nan() {
+            return self.boundless;
+        }
+        let mut sum = self.clone();
+        sum.carry();
+        let is_negative = sum.limbs[LIMBS - 1] < 0;
+        if is_negative {
+            sum.limbs.iter_mut().for_each(|limb| *limb = -*limb);
+            sum.carry();
+        }
+        let Some(top) = sum.limbs.iter().rposition(|&limb| limb != 0) else { return 0.0 };
+        // Three limbs hold more digits than a double; one digit stands for the rest.
+        let lowest = top.saturating_sub(2);
+        let mut digits = 0_u128;
+        for &limb in sum.limbs[lowest..=top].iter().rev() {
+            digits = digits << DIGITS | limb as u128;
+        }
+        digits |= u128::from(sum.limbs[..lowest].iter().any(|&limb| limb != 0));
+        let exponent = (DIGITS as usize * lowest) as i32 - 1074;
+        // In two steps: one power of two may be out of range.
+        let [one, other] = [exponent / 2, exponent - exponent / 2].map(|k| 2.0_f64.powi(k));
+        let magnitude = digits as f64 * one * other;
+        if is_negative { -magnitude } else { magnitude }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    fn of(terms: impl IntoIterator<Item = f64>) -> ExactSum {
+        let mut sum = ExactSum::default();
+        terms.into_iter().for_each(|term| sum.add(term));
+        sum
+    }
+
+    #[test]
+    fn one_term_is_itself() {
+        let edges = [0.0, 1.0, 0.1, f64::MIN_POSITIVE, 5e-324, f64::MAX, 1e-310, 3e200];
+        for term in edges.into_iter().flat_map(|term| [term, -term]) {
+            assert_eq!(of([term]).value(), term);
+        }
+    }
+
+    /// In any order, in any parts, with terms that are taken back.
+    #[test]
+    fn order_and_parts_change_nothing() {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..300 {
+            let mut terms: Vec<f64> = (0..100)
+                .map(|_| {
+                    random.random_range(-1.0..1.0) * 2.0_f64.powi(random.random_range(-90..90))
+                })
+                .collect();
+            let expected = of(terms.iter().copied()).value();
+            let added: i128 = terms.iter().map(|term| (term * 2.0_f64.powi(30)) as i128).sum();
+            let error = expected - added as f64 / 2.0_f64.powi(30);
+            assert!(error.abs() <= 1e-7 + expected.abs() * f64::EPSILON, "{error:e}");
+            terms.reverse();
+            terms.rotate_left(37);
+            let mut sum = of(terms[..40].iter().copied());
+            sum.merge(&of(terms[40..].iter().copied()));
+            assert_eq!(sum.value(), expected);
+            terms[1..].iter().for_each(|term| sum.add(-term));
+            assert_eq!(sum.value(), terms[0]);
+        }
+    }
+
+    #[test]
+    fn rounds_once() {
+        let next = 1.0 + f64::EPSILON;
+        assert_eq!(of([1.0, f64::EPSILON / 2.0]).value(), 1.0);
+        assert_eq!(of([1.0, f64::EPSILON / 2.0, 1e-300]).value(), next);
+        assert_eq!(of([f64::MAX, f64::MAX, -f64::MAX]).value(), f64::MAX);
+        assert_eq!(of([f64::INFINITY, 1.0]).value(), f64::INFINITY);
+        assert!(of([f64::INFINITY, f64::NEG_INFINITY]).value().is_nan());
+    }
+}

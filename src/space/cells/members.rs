@@ -1,0 +1,233 @@
+//! Members: who is in the cells that a worker holds.
+
+use std::collections::BTreeMap;
+
+use super::axis::NOWHERE;
+use super::{Grid, STRIDE};
+use crate::real::Real;
+use crate::space::pieces::Pieces;
+
+/// The bodies that are more than a cell's blocks have room for.
+#[derive(Debug, Default)]
+pub(crate) struct Spilled {
+    pub(super) lists: BTreeMap<u32, Vec<u32>>,
+    /// The most bodies of a cell that has spilled.
+    fullest: usize,
+}
+
+/// Cells cut into runs, to be dealt out.
+#[derive(Debug)]
+pub(crate) struct CutCells<'a, T> {
+    pub grid: &'a Grid<T>,
+    pub blocks: usize,
+    pub runs: Vec<&'a mut [[u32; STRIDE]]>,
+}
+
+/// The grid, and the cells that a worker holds with the slots of their bodies.
+#[derive(Debug)]
+pub(crate) struct Members<'a, T> {
+    pub grid: &'a Grid<T>,
+    pub(super) blocks: usize,
+    pub(super) slots: Pieces<'a, [u32; STRIDE]>,
+    pub(super) spilled: &'a mut Spilled,
+    /// Whether it holds all cells.
+    pub(super) is_whole: bool,
+}
+
+impl<'a, T: Real> Members<'a, T> {
+    /// Two runs of cells and the numbers at which they start.
+    pub fn of(
+        grid: &'a Grid<T>,
+        blocks: usize,
+        runs: [&'a mut [[u32; STRIDE]]; 2],
+        starts: [usize; 2],
+        spilled: &'a mut Spilled,
+    ) -> Self {
+        let slots = Pieces::of(runs, starts.map(|start| start * blocks));
+        Self { grid, blocks, slots, spilled, is_whole: false }
+    }
+
+    /// Whether the cell of a number is among those held, with all its bodies: those that
+    /// are more than it has room for are held by who holds all cells.
+    #[inline(always)]
+    pub fn holds(&self, number: u32) -> bool {
+        self.is_whole
+            || self
+                .slots
+                .get(number as usize * self.blocks)
+                .is_some_and(|block| block[STRIDE - 1] as usize <= self.room())
+    }
+
+    /// The bodies in a cell and in those around it, into `found`, which has
+    /// room for [`most`](Members::most) of them; returns how many. `None` if some of
+    /// these cells are not held.
+    #[inline(always)]
+    pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> Option<usize> {
+        self.read_lines(self.grid.lines(cell), found)
+    }
+
+    /// The bodies in the layer of cells around `cell` that has come near when
+    /// it was entered along `axis`, from below if `up`; as [`around`](Members::around).
+    #[inline(always)]
+    pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> Option<usize> {
+        let mut lines = self.grid.lines(cell);
+        if !self.grid.are_all_neighbours(axis) {
+            let part = lines[axis][if up { 2 } else { 0 }];
+            lines[axis] = [part, NOWHERE, NOWHERE];
+        }
+        self.read_lines(lines, found)
+    }
+
+    #[inline(always)]
+    fn read_lines(&self, [xs, ys, zs]: [[u32; 3]; 3], found: &mut [u32]) -> Option<usize> {
+        let mut len = 0;
+        for z in zs {
+            for y in ys {
+                if z == NOWHERE || y == NOWHERE {
+                    continue;
+                }
+                for x in xs {
+                    if x == NOWHERE {
+                        continue;
+                    }
+                    if !self.holds(x + y + z) {
+                        return None;
+                    }
+                    len = self.read(x + y + z, found, len);
+                }
+            }
+        }
+        Some(len)
+    }
+
+    /// The bodies in a cell, into `found` behind the first `len`; returns how many
+    /// there are then. There are none beyond closed ends.
+    pub fn read_cell(&self, cell: [i32; 3], found: &mut [u32], len: usize) -> usize {
+        if !self.grid.has(cell) {
+            return len;
+        }
+        self.read(self.grid.number_of(cell), found, len)
+    }
+
+    #[inline(always)]
+    fn read(&self, number: u32, found: &mut [u32], len: usize) -> usize {
+        if self.blocks > 1 {
+            return self.read_blocks(number, found, len);
+        }
+        // A whole block is copied faster than a few numbers are counted.
+        let block = &self.slots[number as usize];
+        found[len..len + STRIDE].copy_from_slice(block);
+        let count = block[STRIDE - 1] as usize;
+        if count < STRIDE { len + count } else { self.read_blocks(number, found, len) }
+    }
+
+    #[inline(never)]
+    fn read_blocks(&self, number: u32, found: &mut [u32], len: usize) -> usize {
+        let start = number as usize * self.blocks;
+        let slots = self.slots[start..start + self.blocks].as_flattened();
+        let count = slots[STRIDE - 1] as usize;
+        let within = count.min(self.room());
+        let first = within.min(STRIDE - 1);
+        found[len..len + first].copy_from_slice(&slots[..first]);
+        found[len + first..len + within].copy_from_slice(&slots[STRIDE..STRIDE + within - first]);
+        if count > within
+            && let Some(spilled) = self.spilled.lists.get(&number)
+        {
+            found[len + within..len + count].copy_from_slice(spilled);
+        }
+        len + count
+    }
+
+    /// How many slots a buffer for [`around`](Members::around) must have.
+    pub fn most(&self) -> usize {
+        (27 * self.most_in_cell()).next_multiple_of(16) + 2 * STRIDE
+    }
+
+    /// How many slots are written at most to read a cell.
+    pub fn most_in_cell(&self) -> usize {
+        (self.blocks * STRIDE).max(self.spilled.fullest)
+    }
+
+    /// How many bodies the blocks of a cell have room for.
+    fn room(&self) -> usize {
+        self.blocks * STRIDE - 1
+    }
+
+    /// How many more bodies the blocks of a cell have room for.
+    pub fn room_in(&self, number: u32) -> usize {
+        let start = number as usize * self.blocks;
+        self.room().saturating_sub(self.slots[start][STRIDE - 1] as usize)
+    }
+
+    /// The slots of a cell's bodies and their count, as they lie in memory.
+    fn slots_in(&mut self, number: u32) -> &mut [u32] {
+        let start = number as usize * self.blocks;
+        self.slots[start..start + self.blocks].as_flattened_mut()
+    }
+
+    /// Puts a body into the cell of a number.
+    pub fn insert(&mut self, number: u32, slot: u32) {
+        let room = self.room();
+        let slots = self.slots_in(number);
+        let count = slots[STRIDE - 1] as usize;
+        slots[STRIDE - 1] += 1;
+        if count < room {
+            slots[nth(count)] = slot;
+        } else {
+            self.spilled.lists.entry(number).or_default().push(slot);
+            self.spilled.fullest = self.spilled.fullest.max(count + 1);
+        }
+    }
+
+    /// Whether a body is in the cell of a number.
+    pub fn has(&self, number: u32, slot: u32) -> bool {
+        let start = number as usize * self.blocks;
+        let slots = self.slots[start..start + self.blocks].as_flattened();
+        let count = slots[STRIDE - 1] as usize;
+        (0..count.min(self.room())).any(|k| slots[nth(k)] == slot)
+            || count > self.room()
+                && self.spilled.lists.get(&number).is_some_and(|list| list.contains(&slot))
+    }
+
+    /// Takes a body out of the cell of a number, if it is there.
+    pub fn remove(&mut self, number: u32, slot: u32) {
+        let room = self.room();
+        let slots = self.slots_in(number);
+        let count = slots[STRIDE - 1] as usize;
+        if count > room {
+            self.remove_spilled(number, slot);
+        } else if let Some(at) = (0..count).find(|&k| slots[nth(k)] == slot) {
+            slots[nth(at)] = slots[nth(count - 1)];
+            slots[STRIDE - 1] -= 1;
+        }
+    }
+
+    /// Takes a body out of a cell with more bodies than its blocks have room for.
+    #[cold]
+    fn remove_spilled(&mut self, number: u32, slot: u32) {
+        let room = self.room();
+        let within = (0..room).find(|&k| self.slots_in(number)[nth(k)] == slot);
+        let Some(spilled) = self.spilled.lists.get_mut(&number) else { return };
+        let moved = match (within, spilled.iter().position(|&other| other == slot)) {
+            (_, Some(at)) => {
+                spilled.swap_remove(at);
+                None
+            }
+            (Some(_), None) => spilled.pop(),
+            (None, None) => return,
+        };
+        if spilled.is_empty() {
+            self.spilled.lists.remove(&number);
+        }
+        let slots = self.slots_in(number);
+        slots[STRIDE - 1] -= 1;
+        if let (Some(at), Some(moved)) = (within, moved) {
+            slots[nth(at)] = moved;
+        }
+    }
+}
+
+/// Where the body of a number is among a cell's slots.
+fn nth(number: usize) -> usize {
+    number + usize::from(number >= STRIDE - 1)
+}
