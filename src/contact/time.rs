@@ -75,12 +75,18 @@ impl<L: Lane> ContactEquation<L> {
         self.moving_apart.lt(slack) & self.discriminant.gt(L::ZERO)
     }
 
+    /// Whether the spheres touch ever.
+    #[inline(always)]
+    pub(crate) fn meets(&self) -> L::Mask {
+        // In contact and approaching, rounding alone can take D to 0.
+        let is_deep = self.discriminant.gt(L::ZERO);
+        self.moving_apart.lt(L::ZERO) & (is_deep | self.overlap.ge(L::ZERO))
+    }
+
     /// See [`contact_time`].
     #[inline(always)]
     pub(crate) fn contact_time(&self) -> ContactTime<L> {
-        let is_deep = self.discriminant.gt(L::ZERO);
-        // In contact and approaching, rounding alone can take D to 0.
-        let meets = self.moving_apart.lt(L::ZERO) & (is_deep | self.overlap.ge(L::ZERO));
+        let (meets, is_deep) = (self.meets(), self.discriminant.gt(L::ZERO));
         let root = L::select(is_deep, self.discriminant, L::ZERO).sqrt();
         let gap = (-self.overlap).greater(L::ZERO);
         ContactTime { meets, time: gap / (root - self.moving_apart) }

@@ -1,13 +1,12 @@
 //! Driver: turns, windows and periods, up to the time that is asked for.
 
 use super::clock::Clock;
-use super::log::Log;
 use super::order::{End, Shift, longest_window};
 use super::period::{begin_period, place};
 use super::region::Worker;
 use super::setting::Setting;
 use super::store::Store;
-use super::territories::Cuts;
+use super::territories::Team;
 use super::turns::{next_turn, take_turn};
 use crate::bodies::Bodies;
 use crate::column::Column;
@@ -33,11 +32,7 @@ pub(in crate::engine) struct Driver<T: Real> {
     setting: Setting<T>,
     store: Store<T>,
     clock: Clock<T>,
-    /// The first one holds everything where the others have nothing to do, and counts
-    /// for all.
-    workers: Vec<Worker<T>>,
-    pool: Workers,
-    cuts: Cuts,
+    team: Team<T>,
 }
 
 impl<T: Real> Driver<T> {
@@ -49,33 +44,27 @@ impl<T: Real> Driver<T> {
             Order::Windows => Workers::new(setting.plan.threads)?,
             _ => Workers::default(),
         };
-        let count = pool.threads();
+        let team = Team::new(pool);
         let mut store = Store::new(&setting, cells);
-        store.logs = (0..=2 * count).map(Log::new).collect();
+        store.logs = team.logs();
         setting.leave_to_region();
-        let workers = (0..count).map(|_| Worker::new(0)).collect();
-        let (clock, cuts) = (Clock::new(), Cuts::default());
-        let mut driver = Self { setting, store, clock, workers, pool, cuts };
+        let mut driver = Self { setting, store, clock: Clock::new(), team };
         driver.begin_period(T::ZERO);
         Ok(driver)
     }
 
     fn begin_period(&mut self, end: T) {
-        let Self { setting, store, clock, workers, .. } = self;
+        let Self { setting, store, clock, team } = self;
         let was_strict = clock.window.is_none();
         if setting.plan.order == Order::Windows && was_strict {
             clock.window = Some(T::ZERO);
         }
-        begin_period(setting, store, &mut workers[0], clock, end);
+        begin_period(setting, store, team, clock, end);
         if let Some(window) = clock.window {
             clock.longest_window = longest_window(setting, store, clock);
             let first = clock.period * T::ratio(1, FIRST_WINDOWS);
             let window = if was_strict { first } else { window };
             clock.window = Some(window.lesser(clock.longest_window));
-            let cells = store.cells.only().numbers();
-            let grid = store.cells.finest();
-            let cell_of = |slot: usize| grid.number_of(store.agendas[slot].cell);
-            self.cuts = Cuts::new(2 * workers.len(), store.records.len(), cells, cell_of);
         }
     }
 
@@ -84,10 +73,10 @@ impl<T: Real> Driver<T> {
         if is_strict == self.clock.window.is_none() || self.setting.plan.order == Order::Strict {
             return;
         }
-        let Self { setting, store, clock, workers, .. } = self;
+        let Self { setting, store, clock, team } = self;
         clock.window = (!is_strict).then_some(clock.period * T::ratio(1, FIRST_WINDOWS));
         let now = clock.worked_off;
-        place(setting, store, &mut workers[0], clock, now);
+        place(setting, store, team, clock, now);
     }
 
     /// Takes turns in order of time up to `limit`, which is included, or up to the given
@@ -98,8 +87,8 @@ impl<T: Real> Driver<T> {
         last: u64,
         on_event: &mut Listener<'_, T>,
     ) -> Result<(), EngineError> {
-        let Self { setting, store, clock, workers, .. } = self;
-        let mut region = store.whole(&mut workers[0], None);
+        let Self { setting, store, clock, team } = self;
+        let mut region = store.whole(team.first(), None);
         while region.worker.account.collisions.total() < last && !region.worker.is_too_fast {
             let Some(turn) = next_turn(&mut region) else { break };
             if turn.time > limit {
@@ -130,11 +119,11 @@ impl<T: Real> Driver<T> {
         (last, is_exact): (u64, bool),
         on_event: &mut Listener<'_, T>,
     ) -> End {
-        let Self { setting, store, clock, workers, pool, cuts } = self;
-        let mut shift = Shift { setting, store, workers, pool, cuts, clock };
+        let Self { setting, store, clock, team } = self;
+        let mut shift = Shift { setting, store, team, clock };
         let end = loop {
             let end = shift.next_window(limit, if is_exact { last } else { u64::MAX }, on_event);
-            let is_past = shift.workers[0].account.collisions.total() >= last;
+            let is_past = shift.team.first().account.collisions.total() >= last;
             if end != End::Whole || is_past || shift.clock.worked_off >= limit.0 {
                 break end;
             }
@@ -146,7 +135,7 @@ impl<T: Real> Driver<T> {
     }
 
     fn account(&self) -> &Account {
-        &self.workers[0].account
+        &self.team.workers[0].account
     }
 }
 
@@ -164,7 +153,7 @@ impl<T: Real> EventEngine<T> for Driver<T> {
             let ahead = self.clock.in_period(time);
             let ends_here = ahead < self.clock.period;
             let limit = if ends_here { ahead } else { self.clock.period };
-            if self.clock.window.is_some() && !self.workers[0].is_too_fast {
+            if self.clock.window.is_some() && !self.team.first().is_too_fast {
                 let end =
                     self.advance_in_windows((limit, ends_here), (last, is_exact), &mut on_event);
                 let is_past = self.account().collisions.total() >= last;
@@ -185,7 +174,7 @@ impl<T: Real> EventEngine<T> for Driver<T> {
                 self.clock.time = self.clock.time.max(now).min(time);
                 return Ok(false);
             }
-            if self.workers[0].is_too_fast {
+            if self.team.first().is_too_fast {
                 self.begin_period(self.clock.last_collision);
             } else if ends_here {
                 self.clock.time = time;
@@ -276,7 +265,7 @@ impl<T: Real> Engine<T> for Driver<T> {
     }
 
     fn bytes(&self) -> usize {
-        let workers = self.workers.iter().map(Worker::bytes).sum::<usize>();
+        let workers = self.team.workers.iter().map(Worker::bytes).sum::<usize>();
         self.setting.bytes() + self.store.bytes() + workers
     }
 }

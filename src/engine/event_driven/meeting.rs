@@ -55,6 +55,12 @@ impl<L: Lane> Meeting<L> {
         self.equation.may_meet(slack)
     }
 
+    /// Whether the two meet.
+    #[inline(always)]
+    pub fn meets(&self) -> L::Mask {
+        self.equation.meets()
+    }
+
     /// Whether the two meet, and when.
     #[inline(always)]
     pub fn contact(&self) -> (L::Mask, L) {

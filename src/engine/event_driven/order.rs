@@ -9,15 +9,14 @@ use super::history::{first_too_fast, history, tell, turn_all, undo_after};
 use super::key::Key;
 use super::log::{Log, MOST_ENTRIES};
 use super::period::place;
-use super::region::{Region, Worker};
+use super::region::Region;
 use super::setting::Setting;
 use super::store::Store;
-use super::territories::{Cuts, phase};
-use super::window::{Window, unblock, work_off};
+use super::territories::Team;
+use super::window::{Window, work_off};
 use crate::engine::Listener;
 use crate::engine::account::Account;
 use crate::real::Real;
-use crate::workers::Workers;
 
 /// Bodies that are worked off together: few enough for a processor's first cache.
 const BLOCK: usize = 256;
@@ -54,9 +53,7 @@ pub(super) enum End {
 pub(super) struct Shift<'a, T: Real> {
     pub setting: &'a Setting<T>,
     pub store: &'a mut Store<T>,
-    pub workers: &'a mut [Worker<T>],
-    pub pool: &'a Workers,
-    pub cuts: &'a Cuts,
+    pub team: &'a mut Team<T>,
     pub clock: &'a mut Clock<T>,
 }
 
@@ -73,10 +70,10 @@ impl<T: Real> Shift<'_, T> {
         let length = self.clock.window.unwrap_or(limit);
         let is_last = start + length >= limit;
         let end = if is_last { limit } else { start + length };
-        let base = self.workers[0].stamp;
+        let base = self.team.first().stamp;
         let includes_end = is_last && includes_limit;
         let window = Window { start, end, includes_end, base, is_open: true };
-        let before = self.workers[0].account.collisions.total();
+        let before = self.team.first().account.collisions.total();
         let busiest = self.work_off_all(window);
         let Some(busiest) = busiest else {
             self.finish(window, |setting, region| undo_after(setting, region, None));
@@ -89,7 +86,7 @@ impl<T: Real> Shift<'_, T> {
             let is_small = region.marks.len() <= CHECKED;
             debug_assert!(!is_small || is_closed(setting, region), "a contact was missed");
         });
-        let made = self.workers[0].account.collisions.total() - before;
+        let made = self.team.first().account.collisions.total() - before;
         let cut = self.cut(window, last, on_event);
         self.finish(window, |setting, region| {
             if let Some(cut) = cut {
@@ -124,43 +121,24 @@ impl<T: Real> Shift<'_, T> {
     /// had; `None` if there is no end of turns.
     fn work_off_all(&mut self, window: Window<T>) -> Option<f64> {
         let most = MOST_TURNS + MOST_TURNS_EACH * self.store.records.len() as u64;
-        let (setting, clock, cuts) = (self.setting, &*self.clock, self.cuts);
-        let count = self.workers.len();
-        for (k, worker) in self.workers.iter_mut().enumerate() {
+        let (setting, clock) = (self.setting, &*self.clock);
+        let count = self.team.workers.len();
+        for (k, worker) in self.team.workers.iter_mut().enumerate() {
             worker.turns = 0;
             worker.heap.clear();
             worker.busiest = 0.0;
             worker.is_stuck = false;
             (worker.stamp, worker.stamp_step) = (window.base + k as u32, count as u32);
         }
-        let mut phases = 0;
-        while count > 1 && phases < MOST_PHASES {
-            let is_odd = phases % 2 == 1;
-            let territories = (cuts, is_odd);
-            phase(self.store, self.workers, self.pool, territories, window, |region, pieces| {
-                for piece in pieces {
-                    let slots = cuts.slots_of(piece);
-                    work_off_blocks(setting, region, clock, slots, most);
-                }
-                unblock(region);
-            });
-            phases += 1;
-            if phases >= 2 && !self.store.next.iter().any(|&time| window.is_due(time)) {
-                break;
-            }
-        }
-        let is_left = count == 1 || self.store.next.iter().any(|&time| window.is_due(time));
-        if is_left {
-            let slots = 0..self.store.records.len();
-            self.whole(window, |setting, region, clock| {
-                work_off_blocks(setting, region, clock, slots.clone(), most);
-            });
-        }
-        let stamp = self.workers.iter().map(|worker| worker.stamp).max();
-        let (first, others) = self.workers.split_first_mut()?;
+        let is_left = |store: &Store<T>| store.next.iter().any(|&time| window.is_due(time));
+        self.team.share(self.store, window, MOST_PHASES, is_left, |region, slots| {
+            work_off_blocks(setting, region, clock, slots, most);
+        });
+        let stamp = self.team.workers.iter().map(|worker| worker.stamp).max();
+        self.team.merge_accounts();
+        let (first, others) = self.team.workers.split_first_mut()?;
         first.stamp = stamp.unwrap_or(first.stamp);
         for other in others {
-            first.account.merge(&core::mem::take(&mut other.account));
             first.turns += other.turns;
             first.busiest = first.busiest.max(other.busiest);
             first.is_stuck |= other.is_stuck;
@@ -178,9 +156,9 @@ impl<T: Real> Shift<'_, T> {
         last: u64,
         on_event: &mut Listener<'_, T>,
     ) -> Option<Key<T>> {
-        let total = self.workers[0].account.collisions.total();
+        let total = self.team.first().account.collisions.total();
         let too_many = total.saturating_sub(last) as usize;
-        let is_too_fast = core::mem::take(&mut self.workers[0].is_too_fast);
+        let is_too_fast = core::mem::take(&mut self.team.first().is_too_fast);
         let reaches_last = total >= last;
         if !reaches_last && !is_too_fast && on_event.is_none() {
             return None;
@@ -204,27 +182,18 @@ impl<T: Real> Shift<'_, T> {
             history.retain(|happened| is_kept(&happened.key));
             tell(setting, region, clock, &history, on_event);
         });
-        self.workers[0].is_too_fast = has_too_fast;
+        self.team.first().is_too_fast = has_too_fast;
         cut
     }
 
     /// Ends the window: clears what is special to it.
     fn finish(&mut self, window: Window<T>, end: impl FnOnce(&Setting<T>, &mut Region<'_, T>)) {
-        let lists: Vec<_> =
-            self.workers.iter_mut().map(|worker| core::mem::take(&mut worker.ghosts)).collect();
-        self.whole(window, |setting, region, _| {
-            end(setting, region);
-            for &(number, slot) in lists.iter().flatten() {
-                let cells = &mut region.cells.finest;
-                if cells.grid.number_of(region.agendas[slot as usize].cell) != number {
-                    cells.remove(number, slot);
-                }
-            }
-        });
-        for (worker, mut ghosts) in self.workers.iter_mut().zip(lists) {
-            ghosts.clear();
-            worker.ghosts = ghosts;
-        }
+        self.whole(window, |setting, region, _| end(setting, region));
+        let is_left = |_: &Store<T>| true;
+        self.team.share(self.store, window, 1, is_left, |region, _| region.leave_ghosts());
+        let [first, others @ ..] = &mut self.team.workers[..] else { return };
+        others.iter_mut().for_each(|other| first.ghosts.append(&mut other.ghosts));
+        self.whole(window, |_, region, _| region.leave_ghosts());
         self.store.logs.iter_mut().for_each(Log::clear);
     }
 
@@ -234,16 +203,13 @@ impl<T: Real> Shift<'_, T> {
         window: Window<T>,
         work: impl FnOnce(&Setting<T>, &mut Region<'_, T>, &Clock<T>),
     ) {
-        let worker = &mut self.workers[0];
-        worker.log = core::mem::replace(&mut self.store.logs[0], Log::new(0));
-        let mut region = self.store.whole(worker, Some(window));
-        work(self.setting, &mut region, self.clock);
-        self.store.logs[0] = core::mem::replace(&mut worker.log, Log::new(0));
+        let (setting, clock) = (self.setting, &*self.clock);
+        self.team.whole(self.store, Some(window), |region| work(setting, region, clock));
     }
 
     /// Finds all that is ahead at a time again.
     fn place(&mut self, now: T) {
-        place(self.setting, self.store, &mut self.workers[0], self.clock, now);
+        place(self.setting, self.store, self.team, self.clock, now);
     }
 }
 

@@ -11,10 +11,11 @@ use super::crossing::plan_crossing;
 use super::flight::{Flight, Record};
 use super::log::Mark;
 use super::outcome::ended;
-use super::region::{Region, Worker};
+use super::region::Region;
 use super::search::{find, search};
 use super::setting::Setting;
 use super::store::Store;
+use super::territories::{Cuts, Team};
 use super::window::Window;
 use crate::motion::rotation::turned;
 use crate::real::Real;
@@ -40,10 +41,11 @@ const LONGEST: [i32; 2] = [900, 100];
 pub(super) fn begin_period<T: Real>(
     setting: &Setting<T>,
     store: &mut Store<T>,
-    worker: &mut Worker<T>,
+    team: &mut Team<T>,
     clock: &mut Clock<T>,
     end: T,
 ) {
+    let worker = team.first();
     let mut region = store.whole(worker, None);
     for slot in 0..region.records.len() {
         let flight = region.records[slot].flight();
@@ -66,7 +68,7 @@ pub(super) fn begin_period<T: Real>(
     sort(setting, store);
     let scales = scales(setting, store, clock);
     store.screening.begin::<T>(&scales);
-    place(setting, store, worker, clock, T::ZERO);
+    place(setting, store, team, clock, T::ZERO);
 }
 
 /// Puts the bodies into cells where they are at a time of the period, all flights being
@@ -74,7 +76,7 @@ pub(super) fn begin_period<T: Real>(
 pub(super) fn place<T: Real>(
     setting: &Setting<T>,
     store: &mut Store<T>,
-    worker: &mut Worker<T>,
+    team: &mut Team<T>,
     clock: &mut Clock<T>,
     now: T,
 ) {
@@ -93,7 +95,7 @@ pub(super) fn place<T: Real>(
     if setting.plan.has_pairs {
         loop {
             store.cells.clear();
-            let mut region = store.whole(worker, None);
+            let mut region = store.whole(team.first(), None);
             for slot in 0..region.agendas.len() {
                 let level = region.level_of(slot);
                 let cell = region.agendas[slot].cell;
@@ -105,22 +107,50 @@ pub(super) fn place<T: Real>(
             }
         }
     }
-    let is_strict = clock.window.is_none();
     let len = store.records.len();
-    if is_strict {
+    let worker = team.first();
+    let Some(window) = clock.window.map(|_| Window::closed(worker.stamp)) else {
         let turns = clock.turns_per_time();
         let turns = turns.unwrap_or_else(|| TURNS * len as f64 / clock.period.to_f64());
         worker.calendar.begin(clock.period, turns, TOGETHER);
-    }
-    store.next.resize(if is_strict { 0 } else { len }, T::ZERO);
-    let window = clock.window.map(|_| Window::closed(worker.stamp));
-    let mut region = store.whole(worker, window);
-    for slot in 0..len as u32 {
-        let cell = region.agendas[slot as usize].cell;
-        plan_crossing(setting, &mut region, slot, now, clock.period);
-        if let Ok(nearby) = find(setting, &mut region, 0, slot, cell) {
-            search(setting, &mut region, slot, nearby, now, clock.period);
+        store.next.clear();
+        let mut region = store.whole(worker, None);
+        for slot in 0..len as u32 {
+            look_ahead(setting, &mut region, slot, now, clock.period);
         }
+        return;
+    };
+    let period = clock.period;
+    let unknown = T::from_f64(f64::INFINITY);
+    store.next.clear();
+    store.next.resize(len, unknown);
+    let cells = store.cells.only().numbers();
+    let (grid, agendas) = (store.cells.finest(), &store.agendas);
+    let cell_of = |slot: usize| grid.number_of(agendas[slot].cell);
+    team.cuts = Cuts::new(2 * team.workers.len(), len, cells, cell_of);
+    let is_left = |store: &Store<T>| store.next.contains(&unknown);
+    team.share(store, window, 2, is_left, |region, slots| {
+        for slot in slots {
+            if region.next[slot] == unknown {
+                look_ahead(setting, region, slot as u32, now, period);
+            }
+        }
+    });
+    team.merge_accounts();
+}
+
+/// Finds what is ahead of the body in a slot, unless it has to wait.
+fn look_ahead<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<'_, T>,
+    slot: u32,
+    now: T,
+    period: T,
+) {
+    let cell = region.agendas[slot as usize].cell;
+    if let Ok(nearby) = find(setting, region, 0, slot, cell) {
+        plan_crossing(setting, region, slot, now, period);
+        search(setting, region, slot, nearby, now, period);
         region.enter(slot);
     }
 }

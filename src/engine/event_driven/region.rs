@@ -295,6 +295,40 @@ impl<T: Real> Region<'_, T> {
     }
 }
 
+impl<T: Real> Region<'_, T> {
+    /// Takes bodies out of the cells that they have left in this window, as far as all
+    /// that takes is held.
+    pub fn leave_ghosts(&mut self) {
+        let mut ghosts = core::mem::take(&mut self.worker.ghosts);
+        ghosts.retain(|&(number, slot)| {
+            let cells = &mut self.cells.finest;
+            let Some(agenda) = self.agendas.get(slot as usize) else { return true };
+            if !cells.holds(number) {
+                return true;
+            }
+            if cells.grid.number_of(agenda.cell) != number {
+                cells.remove(number, slot);
+            }
+            false
+        });
+        self.worker.ghosts = ghosts;
+    }
+
+    /// Lets the turn of a body wait for the next phase.
+    pub fn block(&mut self, slot: u32) {
+        self.next[slot as usize] = T::from_f64(f64::INFINITY);
+        self.worker.blocked.push(slot);
+    }
+
+    /// Lets the bodies that have waited take their turns in the next phase.
+    pub fn unblock(&mut self) {
+        while let Some(slot) = self.worker.blocked.pop() {
+            let at = slot as usize;
+            self.next[at] = self.agendas[at].next_time();
+        }
+    }
+}
+
 /// The last stamp before a window; in strict order no flight has others in the log.
 #[inline(always)]
 pub(super) fn base<T>(window: &Option<Window<T>>) -> u32 {

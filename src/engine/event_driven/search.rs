@@ -305,7 +305,7 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
         let radius = region.records[other as usize].radius();
         let mut mark = region.marks[other as usize];
         while region.has_past(&mark) {
-            let past = *region.past(mark.before);
+            let past = region.past(mark.before);
             if past.end < now {
                 return;
             }
@@ -318,9 +318,15 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
             let flight = past.flight(radius);
             let (gravity, still) = (setting.gravity, Vec3::ZERO);
             let met = meeting::<T, F, S, false>(&own, &flight, gravity, space, still, now);
-            let (meets, time) = met.contact();
-            let expected =
-                Expected { time, partner: PartnerCode::body(other), stamp: past.mark.stamp };
+            let (start, stamp) = (past.since, past.mark.stamp);
+            if !met.meets() {
+                if start < now {
+                    return;
+                }
+                continue;
+            }
+            let (_, time) = met.contact();
+            let expected = Expected { time, partner: PartnerCode::body(other), stamp };
             let is_before_end = || {
                 time < past.end
                     || time == past.end
@@ -328,10 +334,10 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
             };
             let have_met = own_mark.last == PartnerCode::body(region.index[other as usize])
                 && past.mark.last == PartnerCode::body(region.index[slot as usize]);
-            if meets && is_before_end() && !(have_met && met.is_touching()) {
+            if is_before_end() && !(have_met && met.is_touching()) {
                 keep(region, slot, expected);
             }
-            if past.since < now {
+            if start < now {
                 return;
             }
         }

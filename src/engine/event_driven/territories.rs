@@ -5,6 +5,8 @@
 //! second one of a pair and the first one of the next. What needs more than a worker
 //! holds waits for the next phase, in which the border is inside a territory.
 
+use core::ops::Range;
+
 use super::log::Log;
 use super::region::{Region, Worker};
 use super::store::Store;
@@ -52,82 +54,160 @@ impl Cuts {
     }
 
     /// The slots of a piece.
-    pub fn slots_of(&self, piece: usize) -> core::ops::Range<usize> {
-        let start = if piece == 0 { 0 } else { self.slots[piece - 1] };
-        start..self.slots[piece]
-    }
-
-    fn starts(&self, ends: &[usize], pieces: [usize; 2]) -> [usize; 2] {
-        pieces.map(|piece| if piece == 0 { 0 } else { ends[piece - 1] })
+    fn slots_of(&self, piece: usize) -> Range<usize> {
+        starts(&self.slots, [piece; 2])[0]..self.slots[piece]
     }
 }
 
-/// Lets each worker do something with its territory of a phase.
-pub(super) fn phase<T: Real>(
-    store: &mut Store<T>,
-    workers: &mut [Worker<T>],
-    pool: &Workers,
-    (cuts, is_odd): (&Cuts, bool),
-    window: Window<T>,
-    work: impl Fn(&mut Region<'_, T>, [usize; 2]) + Send + Sync,
-) {
-    let count = workers.len();
-    let pieces_of = |k: usize| match is_odd {
-        false => [2 * k, 2 * k + 1],
-        true => [2 * k + 1, (2 * k + 2) % (2 * count)],
-    };
-    let log_of = |k: usize| 1 + k + if is_odd { count } else { 0 };
-    for (k, worker) in workers.iter_mut().enumerate() {
-        worker.log = core::mem::replace(&mut store.logs[log_of(k)], Log::new(log_of(k)));
+/// The workers, the threads that they are on, and their territories.
+#[derive(Debug)]
+pub(super) struct Team<T: Real> {
+    /// The first one has everything where the others have nothing to do, and counts for
+    /// all.
+    pub workers: Vec<Worker<T>>,
+    pool: Workers,
+    pub cuts: Cuts,
+}
+
+impl<T: Real> Team<T> {
+    /// One worker for each thread.
+    pub fn new(pool: Workers) -> Self {
+        let workers = (0..pool.threads()).map(|_| Worker::new(0)).collect();
+        Self { workers, pool, cuts: Cuts::default() }
     }
-    let mut spilled: Vec<_> = workers.iter().map(|_| Default::default()).collect();
-    let Store { records, coarse, agendas, marks, next, spins, turned, index, .. } = store;
-    let (screening, logs) = (&store.screening, &store.logs[..]);
-    let mut records = Dealt::new(records, cuts);
-    let mut coarse = Dealt::new(coarse, cuts);
-    let mut agendas = Dealt::new(agendas, cuts);
-    let mut marks = Dealt::new(marks, cuts);
-    let mut next = Dealt::new(next, cuts);
-    let mut spins = Dealt::new(spins, cuts);
-    let mut turned = Dealt::new(turned, cuts);
-    let CutCells { grid, blocks, runs } = store.cells.only().cut(cuts.cells.iter().copied());
-    let mut cells = Dealt { runs: runs.into_iter().map(Some).collect() };
-    let mut items: Vec<_> = workers
-        .iter_mut()
-        .zip(&mut spilled)
-        .enumerate()
-        .map(|(k, (worker, spilled))| {
-            let pieces = pieces_of(k);
-            let starts = cuts.starts(&cuts.slots, pieces);
-            let held = cells.deal(pieces);
-            let cell_starts = cuts.starts(&cuts.cells, pieces);
-            let region = Region {
-                records: Pieces::of(records.deal(pieces), starts),
-                coarse: Pieces::of(coarse.deal(pieces), starts),
-                agendas: Pieces::of(agendas.deal(pieces), starts),
-                marks: Pieces::of(marks.deal(pieces), starts),
-                next: Pieces::of(next.deal(pieces), starts),
-                spins: Pieces::of(spins.deal(pieces), starts),
-                turned: Pieces::of(turned.deal(pieces), starts),
-                index,
-                cells: Held::one(Members::of(grid, blocks, held, cell_starts, spilled)),
-                screening,
-                logs,
-                worker,
-                window: Some(window),
-                is_whole: false,
-            };
-            (region, pieces)
-        })
-        .collect();
-    pool.each(&mut items, |(region, pieces)| {
-        region.make_room();
-        work(region, *pieces);
-    });
-    drop(items);
-    for (k, worker) in workers.iter_mut().enumerate() {
-        store.logs[log_of(k)] = core::mem::replace(&mut worker.log, Log::new(0));
+
+    /// The logs of all workers: one for the first when it has everything, and for each
+    /// one of even phases and one of odd ones.
+    pub fn logs(&self) -> Vec<Log<T>> {
+        (0..=2 * self.workers.len()).map(Log::new).collect()
     }
+
+    /// The worker that counts for all.
+    pub fn first(&mut self) -> &mut Worker<T> {
+        &mut self.workers[0]
+    }
+
+    /// Adds what the workers have added up to what the first one has.
+    pub fn merge_accounts(&mut self) {
+        let [first, others @ ..] = &mut self.workers[..] else { return };
+        for other in others {
+            first.account.merge(&core::mem::take(&mut other.account));
+        }
+    }
+
+    /// Lets the first worker do something with all of it.
+    pub fn whole<R>(
+        &mut self,
+        store: &mut Store<T>,
+        window: Option<Window<T>>,
+        work: impl FnOnce(&mut Region<'_, T>) -> R,
+    ) -> R {
+        let worker = &mut self.workers[0];
+        worker.log = core::mem::replace(&mut store.logs[0], Log::new(0));
+        let result = work(&mut store.whole(worker, window));
+        store.logs[0] = core::mem::replace(&mut worker.log, Log::new(0));
+        result
+    }
+
+    /// Lets each worker do something with its territory, which is two pieces, in an even
+    /// phase and then in an odd one; afterwards the first one with all of it, if `is_left`
+    /// says that something is. With one worker this is all.
+    pub fn share(
+        &mut self,
+        store: &mut Store<T>,
+        window: Window<T>,
+        most_phases: usize,
+        is_left: impl Fn(&Store<T>) -> bool,
+        work: impl Fn(&mut Region<'_, T>, Range<usize>) + Send + Sync,
+    ) {
+        let mut phases = 0;
+        while self.workers.len() > 1 && phases < most_phases {
+            self.phase(store, phases % 2 == 1, window, &work);
+            phases += 1;
+            if phases >= 2 && !is_left(store) {
+                return;
+            }
+        }
+        if self.workers.len() == 1 || is_left(store) {
+            let slots = 0..store.records.len();
+            self.whole(store, Some(window), |region| work(region, slots));
+        }
+    }
+
+    fn phase(
+        &mut self,
+        store: &mut Store<T>,
+        is_odd: bool,
+        window: Window<T>,
+        work: &(impl Fn(&mut Region<'_, T>, Range<usize>) + Send + Sync),
+    ) {
+        let Self { workers, pool, cuts } = self;
+        let count = workers.len();
+        let pieces_of = |k: usize| match is_odd {
+            false => [2 * k, 2 * k + 1],
+            true => [2 * k + 1, (2 * k + 2) % (2 * count)],
+        };
+        let log_of = |k: usize| 1 + k + if is_odd { count } else { 0 };
+        for (k, worker) in workers.iter_mut().enumerate() {
+            worker.log = core::mem::replace(&mut store.logs[log_of(k)], Log::new(log_of(k)));
+        }
+        let mut spilled: Vec<_> = workers.iter().map(|_| Default::default()).collect();
+        let Store { records, coarse, agendas, marks, next, spins, turned, index, .. } = store;
+        let (screening, logs) = (&store.screening, &store.logs[..]);
+        let mut records = Dealt::new(records, cuts);
+        let mut coarse = Dealt::new(coarse, cuts);
+        let mut agendas = Dealt::new(agendas, cuts);
+        let mut marks = Dealt::new(marks, cuts);
+        let mut next = Dealt::new(next, cuts);
+        let mut spins = Dealt::new(spins, cuts);
+        let mut turned = Dealt::new(turned, cuts);
+        let CutCells { grid, blocks, runs } = store.cells.only().cut(cuts.cells.iter().copied());
+        let mut cells = Dealt { runs: runs.into_iter().map(Some).collect() };
+        let mut items: Vec<_> = workers
+            .iter_mut()
+            .zip(&mut spilled)
+            .enumerate()
+            .map(|(k, (worker, spilled))| {
+                let pieces = pieces_of(k);
+                let starts = starts(&cuts.slots, pieces);
+                let held = cells.deal(pieces);
+                let cell_starts = self::starts(&cuts.cells, pieces);
+                let region = Region {
+                    records: Pieces::of(records.deal(pieces), starts),
+                    coarse: Pieces::of(coarse.deal(pieces), starts),
+                    agendas: Pieces::of(agendas.deal(pieces), starts),
+                    marks: Pieces::of(marks.deal(pieces), starts),
+                    next: Pieces::of(next.deal(pieces), starts),
+                    spins: Pieces::of(spins.deal(pieces), starts),
+                    turned: Pieces::of(turned.deal(pieces), starts),
+                    index,
+                    cells: Held::one(Members::of(grid, blocks, held, cell_starts, spilled)),
+                    screening,
+                    logs,
+                    worker,
+                    window: Some(window),
+                    is_whole: false,
+                };
+                (region, pieces)
+            })
+            .collect();
+        pool.each(&mut items, |(region, pieces)| {
+            region.make_room();
+            for piece in *pieces {
+                work(region, cuts.slots_of(piece));
+            }
+            region.unblock();
+        });
+        drop(items);
+        for (k, worker) in workers.iter_mut().enumerate() {
+            store.logs[log_of(k)] = core::mem::replace(&mut worker.log, Log::new(0));
+        }
+    }
+}
+
+/// Where pieces start, by where all of them end.
+fn starts(ends: &[usize], pieces: [usize; 2]) -> [usize; 2] {
+    pieces.map(|piece| if piece == 0 { 0 } else { ends[piece - 1] })
 }
 
 /// A column in pieces, each of which is dealt out once.

@@ -75,19 +75,10 @@ pub(super) fn work_off<T: Real>(
         }
         region.worker.turns += 1;
         if let Err(Blocked) = take_turn(setting, region, clock, slot) {
-            region.next[slot as usize] = T::from_f64(f64::INFINITY);
-            region.worker.blocked.push(slot);
+            region.block(slot);
         }
     }
     true
-}
-
-/// Lets the bodies whose turn had to wait have it in the next phase.
-pub(super) fn unblock<T: Real>(region: &mut Region<'_, T>) {
-    while let Some(slot) = region.worker.blocked.pop() {
-        let at = slot as usize;
-        region.next[at] = region.agendas[at].next_time();
-    }
 }
 
 /// Takes the turn of the body in a slot.
@@ -126,8 +117,14 @@ fn take_turn<T: Real>(
             if !region.records.holds(other as usize) {
                 return Err(Blocked);
             }
+            let is_present = region.marks[other as usize].stamp == expected.stamp;
+            if !is_present && !region.has_past(&region.marks[other as usize]) {
+                region.agendas[slot as usize].drop_first();
+                region.enter(slot);
+                return Ok(());
+            }
             let key = region.keys().of(slot, &expected);
-            if region.marks[other as usize].stamp == expected.stamp {
+            if is_present {
                 if !goes_first(region, other, &key) {
                     return collide_now(setting, region, clock, [slot, other], key);
                 }
