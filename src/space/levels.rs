@@ -201,7 +201,7 @@ impl<T: Real> Levels<T> {
     /// of a level's bodies are out.
     pub fn grow(&mut self) -> bool {
         let grow = |level: &mut Level<T>| level.cells.has_spilled() && level.cells.grow();
-        self.all_mut().fold(false, |has_grown, level| grow(level) || has_grown)
+        self.all_mut().map(grow).fold(false, |one, other| one | other)
     }
 
     /// The bytes that the grids hold.

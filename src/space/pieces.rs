@@ -104,10 +104,7 @@ impl<V> IndexMut<Range<usize>> for Pieces<'_, V> {
 }
 
 /// Cuts a column at rising numbers, the last of them its length.
-pub(crate) fn cut<'a, V>(
-    mut column: &'a mut [V],
-    ends: impl Iterator<Item = usize>,
-) -> Vec<&'a mut [V]> {
+pub(crate) fn cut<V>(mut column: &mut [V], ends: impl Iterator<Item = usize>) -> Vec<&mut [V]> {
     let mut start = 0;
     ends.map(|end| {
         let (run, rest) = core::mem::take(&mut column).split_at_mut(end - start);

@@ -223,7 +223,10 @@ fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
         (found, world, result)
     };
     let (found, world, result) = story(world());
-    for threads in [1, 2, 3] {
+    // Threads that come and go for a few balls take longer than all else.
+    let others = [2, 3, 7][seed as usize % 3];
+    let all: &[usize] = if seed.is_multiple_of(4) { &[1, others] } else { &[1] };
+    for &threads in all {
         let execution = Execution::new().lanes(lanes).threads(threads).order(Order::Windows);
         let (windows, other, _) =
             story(EventDriven::with_execution(scene.clone(), execution).unwrap());

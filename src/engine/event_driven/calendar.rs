@@ -80,10 +80,15 @@ impl<T: Real> Calendar<T> {
         self.now.clear();
     }
 
-    /// Enters a turn, if it is in this period. `order` is that of slots whose
-    /// turns have equal times.
+    /// Enters a turn, if it is in this period. `time_of` says when the turn of the body
+    /// at a slot is now, `order` is that of slots whose turns have equal times.
     #[inline(always)]
-    pub fn enter(&mut self, turn: Turn<T>, order: impl Fn(u32, u32) -> Ordering) {
+    pub fn enter(
+        &mut self,
+        turn: Turn<T>,
+        time_of: impl Fn(u32) -> T,
+        order: impl Fn(u32, u32) -> Ordering,
+    ) {
         if !turn.time.lt(self.end) {
             return;
         }
@@ -95,8 +100,10 @@ impl<T: Real> Calendar<T> {
         // Among the present ones, which are few.
         let mut at = self.now.len();
         while at > 0 {
-            if self.now[at - 1] == turn {
-                // Its turn has the same time as before and another rank.
+            let other = self.now[at - 1];
+            if other == turn || time_of(other.slot) != other.time {
+                // Its turn has the same time as before and another rank, or it is one
+                // of before, whose rank says nothing.
                 self.now.remove(at - 1);
             } else if compared(self.now[at - 1], turn, &order) != Ordering::Less {
                 break;

@@ -44,7 +44,8 @@ pub(super) fn enter<T: Real>(region: &mut Region<'_, T>, turn: Turn<T>) {
         base: base(&region.window),
     };
     let next = |slot: u32| agendas[slot as usize].next();
-    region.worker.calendar.enter(turn, |a, b| order(&keys, next, a, b));
+    let time_of = |slot: u32| agendas[slot as usize].next_time();
+    region.worker.calendar.enter(turn, time_of, |a, b| order(&keys, next, a, b));
 }
 
 /// Takes a turn. Returns whether it was a collision. Blocked only where not all bodies
