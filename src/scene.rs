@@ -26,6 +26,8 @@
 //! precision at the end.
 
 mod arrangement;
+#[cfg(feature = "files")]
+mod assignment;
 mod builder;
 #[cfg(feature = "files")]
 mod builtin;

@@ -43,6 +43,8 @@ Examples:
   carom run gas.toml --engine event-driven       without steps, exactly
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
+  carom run gas.toml --set spheres[0].radius=0.4 --set surface.kind=smooth
+                                                 other values of its keys
   carom run gas.toml --json | jq .energy         the summary for a program
 
 A scene takes spheres from a state file by spheres = { file = \"end.csv\" }.
@@ -121,6 +123,11 @@ pub struct SceneArguments {
     /// Seed of the scene's random numbers
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub seed: Option<u64>,
+
+    /// Put a value in the place of the scene file's, as spheres[0].radius=0.4 or
+    /// surface.kind=rough; can be given many times
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
 }
 
 /// What `carom run` takes.

@@ -5,12 +5,13 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::assignment::{Assignment, Refused};
 use super::builtin;
 use super::check;
 use super::checked::Scene;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
-use super::origin::Origin;
+use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
 use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
@@ -101,6 +102,8 @@ pub struct SceneFile {
     /// What paths in the file start from.
     folder: PathBuf,
     text: Arc<str>,
+    /// What takes the place of the text's values.
+    set: Vec<String>,
     pub(super) raw: RawScene,
 }
 
@@ -152,9 +155,19 @@ impl SceneFile {
     ///
     /// Paths in it start from the working directory.
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
-        let text: Arc<str> = text.into();
-        let raw = pieces::scene(&text)
-            .map_err(|error| Origin::file(name, Arc::clone(&text)).toml_error(&error))?;
+        Self::read(name, text.into(), Vec::new())
+    }
+
+    fn read(name: &str, text: Arc<str>, set: Vec<String>) -> Result<Self, SceneError> {
+        let origin = Origin::file(name, Arc::clone(&text));
+        let assignments: Vec<Assignment> = set
+            .iter()
+            .map(|set| Assignment::parse(set).map_err(|problem| origin.set_error("", problem)))
+            .collect::<Result<_, _>>()?;
+        let raw = pieces::scene(&text, &assignments).map_err(|refused| match refused {
+            Refused::Text(error) => origin.toml_error(&error),
+            Refused::Assignment(key, problem) => origin.set_error(&key, problem),
+        })?;
         Ok(Self {
             name: name.to_owned(),
             precision: raw.precision.unwrap_or_default(),
@@ -168,8 +181,42 @@ impl SceneFile {
             path: name.to_owned(),
             folder: PathBuf::new(),
             text,
+            set,
             raw,
         })
+    }
+
+    /// The file with other values: each assignment is `KEY=VALUE`, with a key path as
+    /// errors name it and a value as the file would have it. What is no TOML value is
+    /// taken for a text, so that quotes can be left out. A later assignment prevails.
+    /// The public fields become what the file says then, but for the name.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    ///
+    /// let file = SceneFile::builtin("superball").ok_or("no such scene")?;
+    /// let file = file.with_values(&["surface.kind=smooth", "spheres[0].radius=0.25"])?;
+    /// assert_eq!(file.build::<f64>()?.bodies.radius.of(0), 0.25);
+    /// let error = file.with_values(&["spheres[0].radus=0.25"]).unwrap_err().to_string();
+    /// assert!(error.starts_with("--set spheres[0].radus is not a key"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If a key leads nowhere or is unknown, or a value is of the wrong type.
+    pub fn with_values<S: AsRef<str>>(&self, assignments: &[S]) -> Result<Self, SceneError> {
+        let further = assignments.iter().map(|set| set.as_ref().to_owned());
+        let set = self.set.iter().cloned().chain(further).collect();
+        let read = Self::read(&self.path, Arc::clone(&self.text), set)?;
+        Ok(Self { name: self.name.clone(), folder: self.folder.clone(), ..read })
+    }
+
+    /// What takes the place of the text's values, as [`with_values`] was given it.
+    ///
+    /// [`with_values`]: SceneFile::with_values
+    #[must_use]
+    pub fn values(&self) -> &[String] {
+        &self.set
     }
 
     /// The built-in scene of that name, if there is one.
@@ -351,6 +398,9 @@ impl SceneFile {
     /// Which values came from where.
     pub(super) fn origin(&self) -> Origin {
         let mut origin = Origin::file(&self.path, Arc::clone(&self.text));
+        for assignment in self.set.iter().filter_map(|set| Assignment::parse(set).ok()) {
+            origin.overridden(assignment.key(), set_option(assignment.key()));
+        }
         let bits = |value: Option<f64>| value.map(f64::to_bits);
         if bits(self.duration) != bits(number(self.raw.duration)) {
             origin.overridden("duration", "--duration");
