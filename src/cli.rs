@@ -11,6 +11,7 @@ mod output_file;
 mod outputs;
 mod plain;
 mod progress;
+mod recording;
 mod run;
 mod scene_argument;
 mod scenes;

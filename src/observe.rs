@@ -23,6 +23,7 @@ mod energy;
 mod fall;
 mod finite;
 mod gas;
+mod images;
 mod momentum;
 mod of_world;
 mod standstill;
@@ -34,6 +35,7 @@ pub use energy::{Energy, energy_scale, integrator_drift};
 pub use fall::fall_energy;
 pub use finite::{NotFinite, Unresolved, not_finite, unresolved};
 pub use gas::{Temperature, collision_rate, compressibility};
+pub use images::Images;
 pub use momentum::{AngularMomentum, Momentum};
 pub use standstill::{Standstill, Touched};
 #[cfg(feature = "files")]

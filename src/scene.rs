@@ -66,6 +66,8 @@ pub use checked::Scene;
 pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;
+#[cfg(feature = "files")]
+pub use settings::Written;
 pub use settings::{
     Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS, OrientationUpdate, Precision,
     SteppedSettings, Summation,

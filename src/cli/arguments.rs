@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use carom::engine::{Execution, Lanes, MOST_THREADS};
+use carom::output::FrameFormat;
 use carom::scene::EngineKind;
 use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -43,6 +44,7 @@ Examples:
   carom run gas.toml --engine event-driven       without steps, exactly
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
+  carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
   carom run gas.toml --set spheres[0].radius=0.4 --set surface.kind=smooth
                                                  other values of its keys
   carom run gas.toml --json | jq .energy         the summary for a program
@@ -144,9 +146,20 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE.csv")]
     pub events: Option<PathBuf>,
 
-    /// Write the final state to a file of comma-separated values
+    /// Write the final state to a file of comma-separated values, or in a format of
+    /// --record by its ending
     #[arg(long, value_name = "FILE.csv")]
     pub state: Option<PathBuf>,
+
+    #[arg(long, value_name = "FILE", help = format!(
+        "Write frames of the trajectory; the ending chooses the format: {}",
+        FrameFormat::ENDINGS
+    ))]
+    pub record: Option<PathBuf>,
+
+    /// Time from one frame to the next; the first one is the start
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub record_every: Option<f64>,
 }
 
 impl SceneArguments {

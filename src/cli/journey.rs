@@ -5,54 +5,82 @@ use core::time::Duration;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use carom::bodies::Bodies;
 use carom::contact::Surface;
 use carom::engine::{EngineError, Event, World};
-use carom::observe::Temperature;
+use carom::observe::{Images, Temperature};
 use carom::output::EventWriter;
 use carom::real::Real;
+use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::failure::Failure;
 use super::output_file::{OutputError, OutputFile};
 use super::progress::Progress;
+use super::recording::Recorder;
 
 /// How long the engine runs between two looks at the clock.
 const STRETCH: Duration = Duration::from_millis(50);
 
 /// A run under way.
-pub struct Journey {
+pub struct Journey<T: Real> {
     course: Course,
     busy: Duration,
+    space: Option<PeriodicBox<T>>,
     /// In a periodic box, the samples for the mean temperature.
     samples: Option<Samples>,
+    /// In a periodic box, where bodies are in the space that it stands for, if that is
+    /// written, and where to look at them next.
+    images: Option<(Images<T>, f64)>,
 }
 
-impl Journey {
-    /// A run of a world over a duration. In a gas, `temperature` and `surface`
-    /// are what its mean temperature is to be made of.
-    pub fn new<T: Real>(
+impl<T: Real> Journey<T> {
+    /// A run of a world over a duration, in a periodic box or open space. In a gas,
+    /// `temperature` and `surface` are what its mean temperature is to be made of.
+    pub fn new(
         world: &World<T>,
         duration: f64,
+        space: Option<PeriodicBox<T>>,
         gas: Option<(Temperature, Surface)>,
     ) -> Self {
         let course = Course::new(world, duration);
         let samples = gas.map(|(first, surface)| Samples::new(first, surface));
-        Self { course, busy: Duration::ZERO, samples }
+        Self { course, busy: Duration::ZERO, space, samples, images: None }
     }
 
-    /// Goes all the way, and writes the collisions to `events`, which comes back
-    /// whole but without its final name.
-    pub fn travel<T: Real>(
+    /// How far the run goes.
+    pub fn course(&self) -> &Course {
+        &self.course
+    }
+
+    /// Keeps count of the boxes that bodies move through, from now on.
+    pub fn count_images(&mut self, world: &World<T>) {
+        let images = self.space.map(|space| Images::new(space, &world.bodies()));
+        self.images = images.map(|images| (images, 0.0));
+    }
+
+    /// The periodic box, and the boxes that bodies have moved through.
+    pub fn space(&self) -> (Option<PeriodicBox<T>>, Option<&Images<T>>) {
+        (self.space, self.images.as_ref().map(|(images, _)| images))
+    }
+
+    /// Goes all the way, and writes the collisions to `events` and frames to `record`.
+    /// Both files come back whole but without their final names.
+    pub fn travel(
         &mut self,
         world: &mut World<T>,
         events: Option<OutputFile>,
-    ) -> Result<Option<OutputFile>, Failure> {
+        mut record: Option<Recorder>,
+    ) -> Result<[Option<OutputFile>; 2], Failure> {
         let mut progress = Progress::new(self.course);
-        let mut events = events.map(Recorder::new).transpose()?;
+        let mut events = events.map(Events::new).transpose()?;
         let mut stretch: u64 = 1;
+        let length = self.course.length();
+        let start = Instant::now();
+        self.look(world, record.as_mut())?;
+        self.busy += start.elapsed();
         loop {
-            let length = self.course.length();
-            let mark = self.samples.as_ref().map_or(length, |samples| samples.mark(length));
+            let mark = self.mark(record.as_ref());
             let start = Instant::now();
             let is_there = match &mut events {
                 None => self.course.advance(world, mark, stretch, None)?,
@@ -71,17 +99,55 @@ impl Journey {
             if !is_there {
                 continue;
             }
-            if let Some(samples) = &mut self.samples {
-                samples.take(world);
-            }
+            let start = Instant::now();
+            self.look(world, record.as_mut())?;
+            self.busy += start.elapsed();
             if mark >= length {
                 break;
             }
         }
         let start = Instant::now();
-        let file = events.map(Recorder::finish).transpose()?;
+        let events = events.map(Events::finish).transpose()?;
+        let record = record.map(Recorder::finish).transpose()?;
         self.busy += start.elapsed();
-        Ok(file)
+        Ok([events, record])
+    }
+
+    /// Where the bodies are to be looked at next.
+    fn mark(&self, record: Option<&Recorder>) -> f64 {
+        let length = self.course.length();
+        let sample = self.samples.as_ref().map(|samples| samples.mark(length));
+        let look = self.images.as_ref().map(|(_, look)| *look);
+        let frame = record.and_then(Recorder::mark);
+        [sample, look, frame].into_iter().flatten().fold(length, f64::min)
+    }
+
+    /// Looks at the bodies, for all that is due.
+    fn look(&mut self, world: &World<T>, record: Option<&mut Recorder>) -> Result<(), Failure> {
+        let position = Course::position(world);
+        let length = self.course.length();
+        let samples = self.samples.as_mut().filter(|samples| samples.mark(length) == position);
+        let is_due = record.as_ref().is_some_and(|record| record.mark() == Some(position));
+        if samples.is_none() && self.images.is_none() && !is_due {
+            return Ok(());
+        }
+        let bodies = world.bodies();
+        if let Some(samples) = samples {
+            samples.take(position, &bodies);
+        }
+        if let Some((images, look)) = &mut self.images {
+            images.look(&bodies);
+            *look = self.course.after(world, images.next_look(&bodies, world.gravity()));
+        }
+        if let Some(record) = record {
+            record.look(
+                world,
+                &bodies,
+                self.space,
+                self.images.as_ref().map(|(images, _)| images),
+            )?;
+        }
+        Ok(())
     }
 
     /// Seconds that the engine, and writing its collisions, took.
@@ -123,9 +189,8 @@ impl Samples {
         length * f64::from(self.passed + 1) / f64::from(self.spans)
     }
 
-    fn take<T: Real>(&mut self, world: &World<T>) {
-        let position = Course::position(world);
-        let now = Temperature::of(&world.bodies()).map_or(self.last, |now| now.translational);
+    fn take<T: Real>(&mut self, position: f64, bodies: &Bodies<T>) {
+        let now = Temperature::of(bodies).map_or(self.last, |now| now.translational);
         self.integral += 0.5 * (self.last + now) * (position - self.last_position);
         (self.last_position, self.last) = (position, now);
         self.passed += 1;
@@ -133,12 +198,12 @@ impl Samples {
 }
 
 /// An events file under way.
-struct Recorder {
+struct Events {
     path: PathBuf,
     writer: EventWriter<OutputFile>,
 }
 
-impl Recorder {
+impl Events {
     fn new(file: OutputFile) -> Result<Self, OutputError> {
         let path = file.path().to_path_buf();
         match EventWriter::new(file) {

@@ -10,33 +10,36 @@ use super::output_file::{Destination, OutputError, OutputFile};
 pub struct Outputs {
     pub events: Option<OutputFile>,
     pub state: Option<OutputFile>,
+    pub record: Option<OutputFile>,
     /// Whether standard output holds one of them, and no summary.
     pub take_standard_output: bool,
 }
 
 impl Outputs {
-    /// Opens what the arguments name.
-    pub fn open(arguments: &RunArguments) -> Result<Self, Failure> {
-        let events = destination("--events", arguments.events.as_deref())?;
-        let state = destination("--state", arguments.state.as_deref())?;
-        let named = [("--events", &events), ("--state", &state)];
-        if let (Some(one), Some(other)) = (&events, &state)
-            && one == other
-            && !is_device(one)
-        {
-            return Err(Failure::Argument(
-                "--events and --state name the same file; give each its own".to_owned(),
-            ));
-        }
+    /// Opens what the arguments and the scene name.
+    pub fn open(arguments: &RunArguments, record: Option<&Path>) -> Result<Self, Failure> {
+        let asked = [
+            ("--events", arguments.events.as_deref()),
+            ("--state", arguments.state.as_deref()),
+            ("--record", record),
+        ];
+        let mut named: Vec<(&'static str, Destination)> = Vec::new();
         let scene = arguments.scene.scene.as_deref().and_then(|path| path.canonicalize().ok());
-        for (option, destination) in named {
-            match destination {
-                Some(Destination::StandardOutput) if arguments.json => {
+        for (option, path) in asked {
+            let Some(destination) = destination(option, path)? else { continue };
+            let is_same = |(_, other): &&(_, _)| *other == destination && !is_device(other);
+            if let Some((other, _)) = named.iter().find(is_same) {
+                return Err(Failure::Argument(format!(
+                    "{other} and {option} name the same file; give each its own"
+                )));
+            }
+            match &destination {
+                Destination::StandardOutput if arguments.json => {
                     return Err(Failure::Argument(format!(
                         "{option} and --json both want standard output; give {option} a file"
                     )));
                 }
-                Some(Destination::Regular(path)) if scene.as_ref() == Some(path) => {
+                Destination::Regular(path) if scene.as_ref() == Some(path) => {
                     return Err(Failure::Argument(format!(
                         "{option} would replace the scene file {}; give it another name",
                         path.display()
@@ -44,11 +47,15 @@ impl Outputs {
                 }
                 _ => {}
             }
+            named.push((option, destination));
         }
+        let is_standard = |(_, destination): &_| *destination == Destination::StandardOutput;
+        let [events, state, record] = asked.map(|(option, path)| open(option, path));
         Ok(Self {
-            events: open("--events", arguments.events.as_deref())?,
-            state: open("--state", arguments.state.as_deref())?,
-            take_standard_output: [events, state].contains(&Some(Destination::StandardOutput)),
+            events: events?,
+            state: state?,
+            record: record?,
+            take_standard_output: named.iter().any(is_standard),
         })
     }
 }

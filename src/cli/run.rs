@@ -3,12 +3,11 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use carom::bodies::Bodies;
 use carom::engine::{Compiled, EngineError, World};
 use carom::observe::{
     Standstill, Temperature, Totals, Unresolved, fall_energy, not_finite, state_hash, unresolved,
 };
-use carom::output::write_state;
+use carom::output::{Frame, FrameFormat, FrameWriter, write_state};
 use carom::real::Real;
 use carom::scene::{Precision, SceneFile};
 use carom::surroundings::Shape;
@@ -20,6 +19,7 @@ use super::outlook;
 use super::output_file::{OutputError, OutputFile};
 use super::outputs::Outputs;
 use super::progress::SettingUp;
+use super::recording::{Recorder, Recording, state_format};
 use super::scene_argument::scene_file;
 use super::summary::{Setup, Summary, Work};
 use super::{print, standard_output};
@@ -37,6 +37,8 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let start = Instant::now();
     let setting_up = SettingUp::new();
     let duration = file.run_duration()?;
+    let recording = Recording::of(arguments, file, duration)?;
+    let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
     let before = Totals::of(&scene.bodies, scene.gravity);
@@ -53,17 +55,24 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let gas = scene.periodic.and_then(|_| Temperature::of(&scene.bodies));
     let gas = gas.map(|temperature| (temperature, scene.surface));
     let (gravity, fall) = (scene.gravity, fall_energy(&scene));
-    let shapes = scene.surroundings.clone();
+    let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
     let mut world = World::new(scene, arguments.scene.execution())?;
-    let mut journey = Journey::new(&world, duration, gas);
+    let mut journey = Journey::new(&world, duration, space, gas);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
-    let outputs = Outputs::open(arguments)?;
+    let outputs = Outputs::open(arguments, recording.as_ref().map(|record| record.path.as_path()))?;
+    if recording.is_some() || state_format.is_some() {
+        journey.count_images(&world);
+    }
+    let record = recording
+        .zip(outputs.record)
+        .map(|(recording, file)| Recorder::new(&recording, file, &world, journey.course()));
+    let record = record.transpose()?;
     drop(setting_up);
     let setup_seconds = start.elapsed().as_secs_f64();
 
-    let events = journey
-        .travel(&mut world, outputs.events)
+    let written = journey
+        .travel(&mut world, outputs.events, record)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
     let bodies = world.bodies();
@@ -91,9 +100,11 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     if let Some(doubt) = doubt.or_else(|| unresolved(&bodies, time)) {
         warn(&doubt);
     }
-    let state = outputs.state.map(|file| written(file, &bodies)).transpose()?;
-    // Both are whole before either gets its name.
-    for file in [events, state].into_iter().flatten() {
+    let (space, images) = journey.space();
+    let frame = Frame { time, step: world.steps(), bodies: &bodies, space, images };
+    let state = outputs.state.map(|file| in_format(state_format, file, &frame)).transpose()?;
+    // All are whole before one of them gets its name.
+    for file in written.into_iter().chain([state]).flatten() {
         file.finish()?;
     }
     show(&summary, arguments.json, outputs.take_standard_output)
@@ -123,9 +134,22 @@ fn explained<T: Real>(failure: Failure, world: &World<T>, shapes: &[Shape<T>]) -
 }
 
 /// A state file with the state in it.
-fn written<T: Real>(mut file: OutputFile, bodies: &Bodies<T>) -> Result<OutputFile, Failure> {
-    write_state(&mut file, bodies).map_err(|error| file.error(error))?;
-    Ok(file)
+fn in_format<T: Real>(
+    format: Option<FrameFormat>,
+    mut file: OutputFile,
+    frame: &Frame<'_, T>,
+) -> Result<OutputFile, Failure> {
+    let Some(format) = format else {
+        write_state(&mut file, frame.bodies).map_err(|error| file.error(error))?;
+        return Ok(file);
+    };
+    let path = file.path().to_path_buf();
+    let write = || {
+        let mut writer = FrameWriter::new(format, &path, file)?;
+        writer.write(frame)?;
+        writer.finish()
+    };
+    Ok(write().map_err(|source| OutputError::Write { path: path.clone(), source })?)
 }
 
 /// Prints the summary; for a person on standard error where standard output

@@ -14,9 +14,11 @@ use super::error::{Problem, SceneError};
 use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
-use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
+use super::raw::{
+    KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, RawWritten, Vector, Whole,
+};
 use super::reading;
-use super::settings::{EngineKind, Precision, SteppedSettings};
+use super::settings::{EngineKind, Precision, SteppedSettings, Written};
 use super::spheres::{Arrangement, Make, Sphere, Spheres, Spread};
 use super::state_file::StateFile;
 use crate::real::Real;
@@ -43,6 +45,8 @@ use crate::vec3::Vec3;
 /// | `impact` | `"sub-step"` | or `"end-of-step"` |
 /// | `orientation` | `"when-asked"` | or `"each-step"` |
 /// | `summation` | `"auto"` | or `"plain"`, `"compensated"` |
+///
+/// `[record]` has the `file` of frames that a run writes, and `every` how much time.
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
@@ -275,6 +279,41 @@ impl SceneFile {
             let wanted = "set `duration` at the top of the file, or --duration";
             self.origin().error("duration", Problem::missing(wanted))
         })
+    }
+
+    /// `[record]`: the frames that a run writes.
+    ///
+    /// # Errors
+    /// If `every` is no length of time.
+    pub fn record(&self) -> Result<Written, SceneError> {
+        self.written("record", &self.raw.record)
+    }
+
+    /// The error of a value that means nothing to what reads it after the scene.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let file = SceneFile::parse("ball.toml", "[record]\nfile = \"ball.vtk\"\n")?;
+    /// let error = file.mistake("record.file", "\"ball.vtk\"", "it must end in .dump");
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "ball.toml:2: record.file is \"ball.vtk\"; it must end in .dump"
+    /// );
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn mistake(&self, key: &str, found: &str, wanted: &str) -> SceneError {
+        let problem = Problem::Value { found: found.to_owned(), wanted: wanted.to_owned() };
+        self.origin().error(key, problem)
+    }
+
+    fn written(&self, table: &str, raw: &RawWritten) -> Result<Written, SceneError> {
+        let every = number(raw.every);
+        if let Some(every) = every.filter(|every| !(every.is_finite() && *every > 0.0)) {
+            let wanted = "a time must be finite and greater than 0";
+            return Err(self.mistake(&format!("{table}.every"), &format!("{every:?}"), wanted));
+        }
+        Ok(Written { file: raw.file.as_ref().map(|file| self.folder.join(file)), every })
     }
 
     /// Builds and checks the scene in a precision.

@@ -33,6 +33,8 @@ pub(super) struct RawScene {
     pub(super) surroundings: Vec<RawSurroundings>,
     #[serde(default, deserialize_with = "entries")]
     pub(super) spheres: Vec<RawSpheres>,
+    #[serde(default)]
+    pub(super) record: RawWritten,
 }
 
 impl RawScene {
@@ -51,6 +53,14 @@ pub(super) struct RawStepped {
     pub(super) impact: Option<Impact>,
     pub(super) orientation: Option<OrientationUpdate>,
     pub(super) summation: Option<Summation>,
+}
+
+/// `[record]`: what a run writes on its way.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWritten {
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
 }
 
 /// `[surface]`.

@@ -5,6 +5,7 @@ mod cases;
 mod ends;
 mod event_driven;
 mod files;
+mod frames;
 mod sound;
 mod states;
 mod streams;
