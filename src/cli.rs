@@ -1,6 +1,7 @@
 //! The command line, from the arguments to the exit status.
 
 mod arguments;
+mod asked;
 mod closed_output;
 mod explain;
 mod failure;
@@ -10,11 +11,13 @@ mod outlook;
 mod output_file;
 mod outputs;
 mod plain;
+mod plot;
 mod progress;
 mod recording;
 mod run;
 mod scene_argument;
 mod scenes;
+mod series;
 mod study;
 mod summary;
 
@@ -36,6 +39,7 @@ pub fn main() -> ExitCode {
             Some(Command::Run(arguments)) => run::run(&arguments),
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
             Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+            Some(Command::Plot(arguments)) => plot::plot(&arguments),
             Some(Command::Study { study }) => study.run(),
         },
         Err(answer) => return answered(&answer),

@@ -26,6 +26,7 @@ mod gas;
 mod images;
 mod momentum;
 mod of_world;
+mod sample;
 mod standstill;
 #[cfg(feature = "files")]
 mod state_hash;
@@ -37,6 +38,7 @@ pub use finite::{NotFinite, Unresolved, not_finite, unresolved};
 pub use gas::{Temperature, collision_rate, compressibility};
 pub use images::Images;
 pub use momentum::{AngularMomentum, Momentum};
+pub use sample::Sample;
 pub use standstill::{Standstill, Touched};
 #[cfg(feature = "files")]
 pub use state_hash::{StateHash, state_hash};

@@ -1,6 +1,6 @@
 //! Output: what happens in a run, as files.
 //!
-//! Events and states become comma-separated values with all their digits, on
+//! Events, states and time series become comma-separated values with all their digits, on
 //! anything that implements [`io::Write`]. With the feature `study` there are frames of a
 //! trajectory in the formats of other programs ([`FrameWriter`]), and a [`WholeFile`] to
 //! write into, which has its name only once it is whole.
@@ -8,6 +8,7 @@
 mod events;
 #[cfg(feature = "study")]
 mod frames;
+mod series;
 mod state;
 #[cfg(feature = "study")]
 mod whole_file;
@@ -15,6 +16,7 @@ mod whole_file;
 pub use events::{EVENT_COLUMNS, EventWriter};
 #[cfg(feature = "study")]
 pub use frames::{Frame, FrameFormat, FrameWriter};
+pub use series::{SeriesColumn, SeriesWriter};
 pub use state::{STATE_COLUMNS, write_state};
 #[cfg(feature = "study")]
 pub(crate) use whole_file::{Listed, Temporary};

@@ -25,6 +25,7 @@ Examples:
   carom scenes rough-gas > gas.toml     start a scene file of your own
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
+  carom plot gas.csv                    draw a time series of a run
   carom study error gas.toml            what each method costs, and its error
 
 Without a command, `carom` does what `carom run` does."
@@ -45,6 +46,7 @@ Examples:
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
   carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
+  carom run gas.toml --series gas.csv --series-every 0.1   figures of it in time
   carom run gas.toml --set spheres[0].radius=0.4 --set surface.kind=smooth
                                                  other values of its keys
   carom run gas.toml --json | jq .energy         the summary for a program
@@ -72,6 +74,13 @@ Examples:
         /// The built-in scene to print.
         name: Option<String>,
     },
+    /// Draw the columns of a time series against its first one.
+    #[command(after_help = "\
+Examples:
+  carom run gas.toml --series gas.csv --series-every 0.1
+  carom plot gas.csv                    draws gas.svg
+  carom plot gas.csv -o energy.svg --columns energy,kinetic,potential")]
+    Plot(PlotArguments),
     /// Measure what methods cost and how far off they are.
     #[command(after_help = "\
 Examples:
@@ -160,6 +169,31 @@ pub struct RunArguments {
     /// Time from one frame to the next; the first one is the start
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub record_every: Option<f64>,
+
+    /// Write energies, momentum, temperatures, collisions, pressure and more at times to
+    /// a file of comma-separated values
+    #[arg(long, value_name = "FILE.csv")]
+    pub series: Option<PathBuf>,
+
+    /// Time from one row of --series to the next; the first one is the start
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub series_every: Option<f64>,
+}
+
+/// What `carom plot` takes.
+#[derive(Args, Debug)]
+pub struct PlotArguments {
+    /// A file of comma-separated values with names in its first line, as --series writes
+    /// it
+    pub file: PathBuf,
+
+    /// The picture [default: the file's name with .svg]
+    #[arg(short, long, value_name = "FILE.svg")]
+    pub output: Option<PathBuf>,
+
+    /// Which columns to draw [default: all that have numbers]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub columns: Vec<String>,
 }
 
 impl SceneArguments {

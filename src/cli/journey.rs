@@ -8,7 +8,7 @@ use std::time::Instant;
 use carom::bodies::Bodies;
 use carom::contact::Surface;
 use carom::engine::{EngineError, Event, World};
-use carom::observe::{Images, Temperature};
+use carom::observe::{Images, Sample, Temperature};
 use carom::output::EventWriter;
 use carom::real::Real;
 use carom::space::PeriodicBox;
@@ -18,9 +18,20 @@ use super::failure::Failure;
 use super::output_file::{OutputError, OutputFile};
 use super::progress::Progress;
 use super::recording::Recorder;
+use super::series::Series;
 
 /// How long the engine runs between two looks at the clock.
 const STRETCH: Duration = Duration::from_millis(50);
+
+/// What a run writes on its way.
+pub struct OnTheWay {
+    /// Every collision.
+    pub events: Option<OutputFile>,
+    /// Frames.
+    pub record: Option<Recorder>,
+    /// Figures.
+    pub series: Option<Series>,
+}
 
 /// A run under way.
 pub struct Journey<T: Real> {
@@ -64,23 +75,23 @@ impl<T: Real> Journey<T> {
         (self.space, self.images.as_ref().map(|(images, _)| images))
     }
 
-    /// Goes all the way, and writes the collisions to `events` and frames to `record`.
-    /// Both files come back whole but without their final names.
+    /// Goes all the way, and writes what is to be written. The files come back whole but
+    /// without their final names.
     pub fn travel(
         &mut self,
         world: &mut World<T>,
-        events: Option<OutputFile>,
-        mut record: Option<Recorder>,
-    ) -> Result<[Option<OutputFile>; 2], Failure> {
+        on_the_way: OnTheWay,
+    ) -> Result<Vec<OutputFile>, Failure> {
+        let OnTheWay { events, mut record, mut series } = on_the_way;
         let mut progress = Progress::new(self.course);
         let mut events = events.map(Events::new).transpose()?;
         let mut stretch: u64 = 1;
         let length = self.course.length();
         let start = Instant::now();
-        self.look(world, record.as_mut())?;
+        self.look(world, record.as_mut(), series.as_mut())?;
         self.busy += start.elapsed();
         loop {
-            let mark = self.mark(record.as_ref());
+            let mark = self.mark(record.as_ref(), series.as_ref());
             let start = Instant::now();
             let is_there = match &mut events {
                 None => self.course.advance(world, mark, stretch, None)?,
@@ -100,7 +111,7 @@ impl<T: Real> Journey<T> {
                 continue;
             }
             let start = Instant::now();
-            self.look(world, record.as_mut())?;
+            self.look(world, record.as_mut(), series.as_mut())?;
             self.busy += start.elapsed();
             if mark >= length {
                 break;
@@ -109,26 +120,35 @@ impl<T: Real> Journey<T> {
         let start = Instant::now();
         let events = events.map(Events::finish).transpose()?;
         let record = record.map(Recorder::finish).transpose()?;
+        let series = series.map(Series::finish).transpose()?;
         self.busy += start.elapsed();
-        Ok([events, record])
+        Ok([events, record, series].into_iter().flatten().collect())
     }
 
     /// Where the bodies are to be looked at next.
-    fn mark(&self, record: Option<&Recorder>) -> f64 {
+    fn mark(&self, record: Option<&Recorder>, series: Option<&Series>) -> f64 {
         let length = self.course.length();
         let sample = self.samples.as_ref().map(|samples| samples.mark(length));
         let look = self.images.as_ref().map(|(_, look)| *look);
         let frame = record.and_then(Recorder::mark);
-        [sample, look, frame].into_iter().flatten().fold(length, f64::min)
+        let row = series.and_then(Series::mark);
+        [sample, look, frame, row].into_iter().flatten().fold(length, f64::min)
     }
 
     /// Looks at the bodies, for all that is due.
-    fn look(&mut self, world: &World<T>, record: Option<&mut Recorder>) -> Result<(), Failure> {
+    fn look(
+        &mut self,
+        world: &World<T>,
+        record: Option<&mut Recorder>,
+        series: Option<&mut Series>,
+    ) -> Result<(), Failure> {
         let position = Course::position(world);
         let length = self.course.length();
         let samples = self.samples.as_mut().filter(|samples| samples.mark(length) == position);
-        let is_due = record.as_ref().is_some_and(|record| record.mark() == Some(position));
-        if samples.is_none() && self.images.is_none() && !is_due {
+        let record = record.filter(|record| record.mark() == Some(position));
+        let series = series.filter(|series| series.mark() == Some(position));
+        let is_due = samples.is_some() || record.is_some() || series.is_some();
+        if !is_due && self.images.is_none() {
             return Ok(());
         }
         let bodies = world.bodies();
@@ -139,13 +159,12 @@ impl<T: Real> Journey<T> {
             images.look(&bodies);
             *look = self.course.after(world, images.next_look(&bodies, world.gravity()));
         }
+        let images = self.images.as_ref().map(|(images, _)| images);
         if let Some(record) = record {
-            record.look(
-                world,
-                &bodies,
-                self.space,
-                self.images.as_ref().map(|(images, _)| images),
-            )?;
+            record.write(world, &bodies, self.space, images)?;
+        }
+        if let Some(series) = series {
+            series.row(position, Sample::of(world, &bodies, images))?;
         }
         Ok(())
     }

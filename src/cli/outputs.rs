@@ -11,17 +11,23 @@ pub struct Outputs {
     pub events: Option<OutputFile>,
     pub state: Option<OutputFile>,
     pub record: Option<OutputFile>,
+    pub series: Option<OutputFile>,
     /// Whether standard output holds one of them, and no summary.
     pub take_standard_output: bool,
 }
 
 impl Outputs {
     /// Opens what the arguments and the scene name.
-    pub fn open(arguments: &RunArguments, record: Option<&Path>) -> Result<Self, Failure> {
+    pub fn open(
+        arguments: &RunArguments,
+        record: Option<&Path>,
+        series: Option<&Path>,
+    ) -> Result<Self, Failure> {
         let asked = [
             ("--events", arguments.events.as_deref()),
             ("--state", arguments.state.as_deref()),
             ("--record", record),
+            ("--series", series),
         ];
         let mut named: Vec<(&'static str, Destination)> = Vec::new();
         let scene = arguments.scene.scene.as_deref().and_then(|path| path.canonicalize().ok());
@@ -50,11 +56,12 @@ impl Outputs {
             named.push((option, destination));
         }
         let is_standard = |(_, destination): &_| *destination == Destination::StandardOutput;
-        let [events, state, record] = asked.map(|(option, path)| open(option, path));
+        let [events, state, record, series] = asked.map(|(option, path)| open(option, path));
         Ok(Self {
             events: events?,
             state: state?,
             record: record?,
+            series: series?,
             take_standard_output: named.iter().any(is_standard),
         })
     }

@@ -12,18 +12,18 @@ use carom::space::PeriodicBox;
 use carom::study::{Course, Schedule};
 
 use super::arguments::RunArguments;
+use super::asked::{Asked, Words};
 use super::failure::Failure;
 use super::output_file::{OutputError, OutputFile};
 
-/// The most times that something is written on the way.
-const MOST_TIMES: f64 = 1e7;
+/// What they are called.
+const WORDS: Words = Words { things: "frames", option: "--record", table: "record" };
 
 /// What is to be written, and how often.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Recording {
-    pub path: PathBuf,
+    pub asked: Asked,
     pub format: FrameFormat,
-    pub every: f64,
 }
 
 impl Recording {
@@ -33,38 +33,15 @@ impl Recording {
         file: &SceneFile,
         duration: f64,
     ) -> Result<Option<Self>, Failure> {
-        let scene = file.record()?;
-        let every = arguments.record_every.or(scene.every);
-        let path = arguments.record.clone().or_else(|| scene.file.clone());
-        let (path, every) = match (path, every) {
-            (None, None) => return Ok(None),
-            (Some(path), Some(every)) => (path, every),
-            (path, _) => {
-                let missing = if path.is_none() { "file" } else { "time between them" };
-                return Err(Failure::Argument(format!(
-                    "frames are asked for, but no {missing}; give --record FILE and \
-                     --record-every TIME, or `file` and `every` under [record]"
-                )));
-            }
+        let options = (arguments.record.as_ref(), arguments.record_every);
+        let Some(asked) = Asked::of(WORDS, options, file.record()?, duration)? else {
+            return Ok(None);
         };
-        let times = duration / every;
-        if times > MOST_TIMES {
-            return Err(Failure::Argument(format!(
-                "a frame every {every:?} would be {times:.1e} of them until {duration:?}, more \
-                 than {MOST_TIMES:e}; take a longer time between frames (--record-every)"
-            )));
-        }
-        let wanted = format!("its ending must be {}", FrameFormat::ENDINGS);
-        match FrameFormat::of(&path) {
-            Some(format) => Ok(Some(Self { path, format, every })),
-            None if arguments.record.is_some() => {
-                Err(Failure::Argument(format!("--record is {}; {wanted}", path.display())))
-            }
-            None => {
-                let found = format!("{:?}", path.display().to_string());
-                Err(file.mistake("record.file", &found, &wanted).into())
-            }
-        }
+        let Some(format) = FrameFormat::of(&asked.path) else {
+            let wanted = format!("its ending must be {}", FrameFormat::ENDINGS);
+            return Err(asked.refused(WORDS, file, &wanted));
+        };
+        Ok(Some(Self { asked, format }))
     }
 }
 
@@ -98,12 +75,12 @@ impl Recorder {
         world: &World<T>,
         course: &Course,
     ) -> Result<Self, OutputError> {
-        let path = recording.path.clone();
+        let path = recording.asked.path.clone();
         let writer = match FrameWriter::new(recording.format, &path, file) {
             Ok(writer) => writer,
             Err(source) => return Err(OutputError::Write { path, source }),
         };
-        let schedule = Schedule::new(world, course, recording.every);
+        let schedule = Schedule::new(world, course, recording.asked.every);
         Ok(Self { path, schedule, writer, frames: 0 })
     }
 
@@ -112,18 +89,14 @@ impl Recorder {
         self.schedule.mark()
     }
 
-    /// Writes the bodies down if they are due.
-    pub fn look<T: Real>(
+    /// Writes the bodies down, at the place where they are due.
+    pub fn write<T: Real>(
         &mut self,
         world: &World<T>,
         bodies: &Bodies<T>,
         space: Option<PeriodicBox<T>>,
         images: Option<&Images<T>>,
     ) -> Result<(), OutputError> {
-        let position = Course::position(world);
-        if self.mark() != Some(position) {
-            return Ok(());
-        }
         let step = match world.plan().engine {
             EngineKind::Stepped => world.steps(),
             _ => self.frames,
@@ -132,7 +105,7 @@ impl Recorder {
         let written = self.writer.write(&frame);
         written.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
         self.frames += 1;
-        self.schedule.pass(position);
+        self.schedule.pass(Course::position(world));
         Ok(())
     }
 

@@ -13,14 +13,16 @@ use carom::scene::{Precision, SceneFile};
 use carom::surroundings::Shape;
 
 use super::arguments::RunArguments;
+use super::asked::Asked;
 use super::failure::Failure;
-use super::journey::Journey;
+use super::journey::{Journey, OnTheWay};
 use super::outlook;
 use super::output_file::{OutputError, OutputFile};
 use super::outputs::Outputs;
 use super::progress::SettingUp;
 use super::recording::{Recorder, Recording, state_format};
 use super::scene_argument::scene_file;
+use super::series::{AskedSeries, Series};
 use super::summary::{Setup, Summary, Work};
 use super::{print, standard_output};
 
@@ -38,6 +40,7 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let setting_up = SettingUp::new();
     let duration = file.run_duration()?;
     let recording = Recording::of(arguments, file, duration)?;
+    let series = AskedSeries::of(arguments, file, duration)?;
     let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
@@ -60,19 +63,33 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let mut journey = Journey::new(&world, duration, space, gas);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
-    let outputs = Outputs::open(arguments, recording.as_ref().map(|record| record.path.as_path()))?;
-    if recording.is_some() || state_format.is_some() {
+    let path = |asked: &Asked| asked.path.clone();
+    let outputs = Outputs::open(
+        arguments,
+        recording.as_ref().map(|recording| path(&recording.asked)).as_deref(),
+        series.as_ref().map(|series| path(&series.asked)).as_deref(),
+    )?;
+    if recording.is_some() || series.is_some() || state_format.is_some() {
         journey.count_images(&world);
     }
+    let course = *journey.course();
     let record = recording
         .zip(outputs.record)
-        .map(|(recording, file)| Recorder::new(&recording, file, &world, journey.course()));
-    let record = record.transpose()?;
+        .map(|(recording, file)| Recorder::new(&recording, file, &world, &course));
+    let volume = space.map(|space| space.sides().cast::<f64>().to_array().iter().product());
+    let series = series
+        .zip(outputs.series)
+        .map(|(series, file)| Series::new(&series, file, &world, &course, volume));
+    let on_the_way = OnTheWay {
+        events: outputs.events,
+        record: record.transpose()?,
+        series: series.transpose()?,
+    };
     drop(setting_up);
     let setup_seconds = start.elapsed().as_secs_f64();
 
     let written = journey
-        .travel(&mut world, outputs.events, record)
+        .travel(&mut world, on_the_way)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
     let bodies = world.bodies();
@@ -104,7 +121,7 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let frame = Frame { time, step: world.steps(), bodies: &bodies, space, images };
     let state = outputs.state.map(|file| in_format(state_format, file, &frame)).transpose()?;
     // All are whole before one of them gets its name.
-    for file in written.into_iter().chain([state]).flatten() {
+    for file in written.into_iter().chain(state) {
         file.finish()?;
     }
     show(&summary, arguments.json, outputs.take_standard_output)

@@ -15,7 +15,8 @@ use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
 use super::raw::{
-    KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, RawWritten, Vector, Whole,
+    KEYS, Number, RawPeriodic, RawScene, RawSeries, RawSpheres, RawSurroundings, RawWritten,
+    Vector, Whole,
 };
 use super::reading;
 use super::settings::{EngineKind, Precision, SteppedSettings, Written};
@@ -46,7 +47,8 @@ use crate::vec3::Vec3;
 /// | `orientation` | `"when-asked"` | or `"each-step"` |
 /// | `summation` | `"auto"` | or `"plain"`, `"compensated"` |
 ///
-/// `[record]` has the `file` of frames that a run writes, and `every` how much time.
+/// `[record]` has the `file` of frames that a run writes, and `every` how much time;
+/// `[series]` the same of a time series, and the `columns` in it.
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
@@ -286,7 +288,30 @@ impl SceneFile {
     /// # Errors
     /// If `every` is no length of time.
     pub fn record(&self) -> Result<Written, SceneError> {
-        self.written("record", &self.raw.record)
+        let RawWritten { file, every } = &self.raw.record;
+        self.written("record", file.as_deref(), *every)
+    }
+
+    /// `[series]`: the time series that a run writes.
+    ///
+    /// # Errors
+    /// If `every` is no length of time.
+    pub fn series(&self) -> Result<Written, SceneError> {
+        let RawSeries { file, every, .. } = &self.raw.series;
+        self.written("series", file.as_deref(), *every)
+    }
+
+    /// `columns` of `[series]`: the names of what is in it.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let file = SceneFile::parse("gas", "[series]\ncolumns = [\"time\", \"energy\"]\n")?;
+    /// assert_eq!(file.series_columns().map(<[_]>::len), Some(2));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn series_columns(&self) -> Option<&[String]> {
+        self.raw.series.columns.as_deref()
     }
 
     /// The error of a value that means nothing to what reads it after the scene.
@@ -307,13 +332,18 @@ impl SceneFile {
         self.origin().error(key, problem)
     }
 
-    fn written(&self, table: &str, raw: &RawWritten) -> Result<Written, SceneError> {
-        let every = number(raw.every);
+    fn written(
+        &self,
+        table: &str,
+        file: Option<&str>,
+        every: Option<Number>,
+    ) -> Result<Written, SceneError> {
+        let every = number(every);
         if let Some(every) = every.filter(|every| !(every.is_finite() && *every > 0.0)) {
             let wanted = "a time must be finite and greater than 0";
             return Err(self.mistake(&format!("{table}.every"), &format!("{every:?}"), wanted));
         }
-        Ok(Written { file: raw.file.as_ref().map(|file| self.folder.join(file)), every })
+        Ok(Written { file: file.map(|file| self.folder.join(file)), every })
     }
 
     /// Builds and checks the scene in a precision.

@@ -35,6 +35,8 @@ pub(super) struct RawScene {
     pub(super) spheres: Vec<RawSpheres>,
     #[serde(default)]
     pub(super) record: RawWritten,
+    #[serde(default)]
+    pub(super) series: RawSeries,
 }
 
 impl RawScene {
@@ -61,6 +63,15 @@ pub(super) struct RawStepped {
 pub(super) struct RawWritten {
     pub(super) file: Option<String>,
     pub(super) every: Option<Number>,
+}
+
+/// `[series]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSeries {
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
+    pub(super) columns: Option<Vec<String>>,
 }
 
 /// `[surface]`.

@@ -287,7 +287,7 @@ fn what_cannot_be_recorded_is_refused() {
     refused(BOX, "--record a.parquet --record-every 1", &["--record is a.parquet", endings]);
     refused(BOX, "--record a.dump", &["no time between them", "--record-every TIME"]);
     refused(BOX, "--record-every 1", &["no file", "--record FILE"]);
-    refused(BOX, "--record-every 1e-12 --record a.xyz", &["a frame every 1e-12", "--record-every"]);
+    refused(BOX, "--record-every 1e-12 --record a.xyz", &["frames every 1e-12", "--record-every"]);
     refused(BOX, "--record scene.dump/x.xyz --record-every 1", &["--record", "no folder"]);
     refused(BOX, "--record a.npz --state a.npz --record-every 1", &["--state and --record"]);
     let with = |keys: &str| format!("{BOX}\n[record]\n{keys}\n");
