@@ -7,6 +7,7 @@ mod explain;
 mod failure;
 mod interrupt;
 mod journey;
+mod measured;
 mod outlook;
 mod output_file;
 mod outputs;

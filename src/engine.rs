@@ -166,6 +166,20 @@ impl Collisions {
         self.pairs + self.surroundings
     }
 
+    /// Those after an earlier count.
+    ///
+    /// ```
+    /// # use carom::engine::Collisions;
+    /// assert_eq!(Collisions::default().since(Collisions::default()).total(), 0);
+    /// ```
+    #[must_use]
+    pub fn since(&self, earlier: Self) -> Self {
+        Self {
+            pairs: self.pairs - earlier.pairs,
+            surroundings: self.surroundings - earlier.surroundings,
+        }
+    }
+
     /// The ends of flights: a collision of two bodies ends two.
     #[must_use]
     pub fn ends(&self) -> u64 {

@@ -19,6 +19,7 @@
 //! # Ok::<(), carom::bodies::BodiesError>(())
 //! ```
 
+mod blocks;
 mod energy;
 mod fall;
 mod finite;
@@ -32,6 +33,7 @@ mod standstill;
 mod state_hash;
 mod totals;
 
+pub use blocks::Statistic;
 pub use energy::{Energy, energy_scale, integrator_drift};
 pub use fall::fall_energy;
 pub use finite::{NotFinite, Unresolved, not_finite, unresolved};

@@ -1,20 +1,20 @@
 //! Journey: an engine from the start of a run to its end, with what is to be
 //! seen, written and sampled on the way.
 
+use core::cell::OnceCell;
 use core::time::Duration;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use carom::bodies::Bodies;
-use carom::contact::Surface;
 use carom::engine::{EngineError, Event, World};
-use carom::observe::{Images, Sample, Temperature};
+use carom::observe::{Energy, Images, Sample, Temperature};
 use carom::output::EventWriter;
 use carom::real::Real;
 use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::failure::Failure;
+use super::measured::Measured;
 use super::output_file::{OutputError, OutputFile};
 use super::progress::Progress;
 use super::recording::Recorder;
@@ -38,30 +38,25 @@ pub struct Journey<T: Real> {
     course: Course,
     busy: Duration,
     space: Option<PeriodicBox<T>>,
-    /// In a periodic box, the samples for the mean temperature.
-    samples: Option<Samples>,
+    /// The energy at the start, and what bodies can fall through.
+    energy: (Energy, f64),
+    /// What the figures of the summary are taken from.
+    measured: Measured,
     /// In a periodic box, where bodies are in the space that it stands for, if that is
     /// written, and where to look at them next.
     images: Option<(Images<T>, f64)>,
 }
 
 impl<T: Real> Journey<T> {
-    /// A run of a world over a duration, in a periodic box or open space. In a gas,
-    /// `temperature` and `surface` are what its mean temperature is to be made of.
+    /// A run of a world, in a periodic box or open space, that begins with an energy and
+    /// that which bodies can fall through.
     pub fn new(
-        world: &World<T>,
-        duration: f64,
+        course: Course,
         space: Option<PeriodicBox<T>>,
-        gas: Option<(Temperature, Surface)>,
+        energy: (Energy, f64),
+        measured: Measured,
     ) -> Self {
-        let course = Course::new(world, duration);
-        let samples = gas.map(|(first, surface)| Samples::new(first, surface));
-        Self { course, busy: Duration::ZERO, space, samples, images: None }
-    }
-
-    /// How far the run goes.
-    pub fn course(&self) -> &Course {
-        &self.course
+        Self { course, busy: Duration::ZERO, space, energy, measured, images: None }
     }
 
     /// Keeps count of the boxes that bodies move through, from now on.
@@ -83,7 +78,7 @@ impl<T: Real> Journey<T> {
         on_the_way: OnTheWay,
     ) -> Result<Vec<OutputFile>, Failure> {
         let OnTheWay { events, mut record, mut series } = on_the_way;
-        let mut progress = Progress::new(self.course);
+        let mut progress = Progress::new(self.course, self.energy);
         let mut events = events.map(Events::new).transpose()?;
         let mut stretch: u64 = 1;
         let length = self.course.length();
@@ -128,11 +123,11 @@ impl<T: Real> Journey<T> {
     /// Where the bodies are to be looked at next.
     fn mark(&self, record: Option<&Recorder>, series: Option<&Series>) -> f64 {
         let length = self.course.length();
-        let sample = self.samples.as_ref().map(|samples| samples.mark(length));
+        let measure = self.measured.mark(length);
         let look = self.images.as_ref().map(|(_, look)| *look);
         let frame = record.and_then(Recorder::mark);
         let row = series.and_then(Series::mark);
-        [sample, look, frame, row].into_iter().flatten().fold(length, f64::min)
+        [measure, look, frame, row].into_iter().flatten().fold(length, f64::min)
     }
 
     /// Looks at the bodies, for all that is due.
@@ -144,27 +139,24 @@ impl<T: Real> Journey<T> {
     ) -> Result<(), Failure> {
         let position = Course::position(world);
         let length = self.course.length();
-        let samples = self.samples.as_mut().filter(|samples| samples.mark(length) == position);
         let record = record.filter(|record| record.mark() == Some(position));
         let series = series.filter(|series| series.mark() == Some(position));
-        let is_due = samples.is_some() || record.is_some() || series.is_some();
-        if !is_due && self.images.is_none() {
-            return Ok(());
-        }
-        let bodies = world.bodies();
-        if let Some(samples) = samples {
-            samples.take(position, &bodies);
+        let bodies = OnceCell::new();
+        let bodies = || bodies.get_or_init(|| world.bodies());
+        while self.measured.mark(length).is_some_and(|mark| mark <= position) {
+            self.measured.take(world, position, || Temperature::of(bodies()));
         }
         if let Some((images, look)) = &mut self.images {
-            images.look(&bodies);
-            *look = self.course.after(world, images.next_look(&bodies, world.gravity()));
+            let bodies = bodies();
+            images.look(bodies);
+            *look = self.course.after(world, images.next_look(bodies, world.gravity()));
         }
         let images = self.images.as_ref().map(|(images, _)| images);
         if let Some(record) = record {
-            record.write(world, &bodies, self.space, images)?;
+            record.write(world, bodies(), self.space, images)?;
         }
         if let Some(series) = series {
-            series.row(position, Sample::of(world, &bodies, images))?;
+            series.row(position, Sample::of(world, bodies(), images))?;
         }
         Ok(())
     }
@@ -174,45 +166,9 @@ impl<T: Real> Journey<T> {
         self.busy.as_secs_f64()
     }
 
-    /// The mean translational temperature over the run; `None` where it is
-    /// not needed.
-    pub fn mean_temperature(&self) -> Option<f64> {
-        let samples = self.samples.as_ref()?;
-        Some(samples.integral / self.course.length())
-    }
-}
-
-/// The translational temperature, sampled on the way.
-struct Samples {
-    /// Into how many spans the run is divided: a power of two, so that their
-    /// ends are exact.
-    spans: u32,
-    /// How many have passed.
-    passed: u32,
-    last_position: f64,
-    last: f64,
-    /// Temperature × position, by the trapezoidal rule.
-    integral: f64,
-}
-
-impl Samples {
-    fn new(first: Temperature, surface: Surface) -> Self {
-        // Rough contacts exchange energy between motion and spin: the ends of a
-        // run do not show what was in between.
-        let spans = if surface.changes_spins() { 32 } else { 1 };
-        Self { spans, passed: 0, last_position: 0.0, last: first.translational, integral: 0.0 }
-    }
-
-    /// Where the next sample is due.
-    fn mark(&self, length: f64) -> f64 {
-        length * f64::from(self.passed + 1) / f64::from(self.spans)
-    }
-
-    fn take<T: Real>(&mut self, position: f64, bodies: &Bodies<T>) {
-        let now = Temperature::of(bodies).map_or(self.last, |now| now.translational);
-        self.integral += 0.5 * (self.last + now) * (position - self.last_position);
-        (self.last_position, self.last) = (position, now);
-        self.passed += 1;
+    /// What the figures of the summary are taken from.
+    pub fn measured(&self) -> &Measured {
+        &self.measured
     }
 }
 

@@ -10,12 +10,14 @@ use carom::observe::{
 use carom::output::{Frame, FrameFormat, FrameWriter, write_state};
 use carom::real::Real;
 use carom::scene::{Precision, SceneFile};
+use carom::study::Course;
 use carom::surroundings::Shape;
 
 use super::arguments::RunArguments;
 use super::asked::Asked;
 use super::failure::Failure;
 use super::journey::{Journey, OnTheWay};
+use super::measured::Measured;
 use super::outlook;
 use super::output_file::{OutputError, OutputFile};
 use super::outputs::Outputs;
@@ -39,6 +41,7 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let start = Instant::now();
     let setting_up = SettingUp::new();
     let duration = file.run_duration()?;
+    let equilibration = file.equilibration(duration)?;
     let recording = Recording::of(arguments, file, duration)?;
     let series = AskedSeries::of(arguments, file, duration)?;
     let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
@@ -55,12 +58,15 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     standard_output()?;
     let doubt = unresolved(&scene.bodies, duration);
     let mut setup = Setup::of(&scene);
-    let gas = scene.periodic.and_then(|_| Temperature::of(&scene.bodies));
-    let gas = gas.map(|temperature| (temperature, scene.surface));
+    let volume =
+        scene.periodic.map(|space| space.sides().cast::<f64>().to_array().iter().product());
+    let gas = volume.filter(|_| scene.bodies.len() > 1).map(|volume| (volume, scene.surface));
     let (gravity, fall) = (scene.gravity, fall_energy(&scene));
     let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
     let mut world = World::new(scene, arguments.scene.execution())?;
-    let mut journey = Journey::new(&world, duration, space, gas);
+    let course = Course::new(&world, duration);
+    let measured = Measured::new(&world, &course, equilibration, gas);
+    let mut journey = Journey::new(course, space, (before.energy, fall), measured);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
     let path = |asked: &Asked| asked.path.clone();
@@ -72,14 +78,12 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     if recording.is_some() || series.is_some() || state_format.is_some() {
         journey.count_images(&world);
     }
-    let course = *journey.course();
     let record = recording
         .zip(outputs.record)
         .map(|(recording, file)| Recorder::new(&recording, file, &world, &course));
-    let volume = space.map(|space| space.sides().cast::<f64>().to_array().iter().product());
     let series = series
         .zip(outputs.series)
-        .map(|(series, file)| Series::new(&series, file, &world, &course, volume));
+        .map(|(series, file)| Series::new(&series, file, &world, &course, equilibration, volume));
     let on_the_way = OnTheWay {
         events: outputs.events,
         record: record.transpose()?,
@@ -103,7 +107,10 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let temperature = Temperature::of(&bodies);
     let hash = state_hash(&bodies);
     let work = Work {
-        mean_temperature: journey.mean_temperature(),
+        measured: journey.measured().total(&world),
+        equilibration,
+        mean_temperature: journey.measured().mean_temperature(course.length()),
+        statistics: journey.measured().statistics(course.length()),
         fall,
         setup_seconds,
         engine_seconds: journey.seconds(),

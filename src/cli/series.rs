@@ -63,12 +63,14 @@ pub struct Series {
 }
 
 impl Series {
-    /// Figures of a world into an open file; `volume` is that of a periodic box.
+    /// Figures of a world into an open file, from a time on; `volume` is that of a periodic
+    /// box.
     pub fn new<T: Real>(
         series: &AskedSeries,
         file: OutputFile,
         world: &World<T>,
         course: &Course,
+        start: f64,
         volume: Option<f64>,
     ) -> Result<Self, OutputError> {
         let path = series.asked.path.clone();
@@ -76,7 +78,8 @@ impl Series {
             Ok(writer) => writer,
             Err(source) => return Err(OutputError::Write { path, source }),
         };
-        Ok(Self { path, schedule: Schedule::new(world, course, series.asked.every), writer })
+        let schedule = Schedule::new(world, course, series.asked.every).starting(start);
+        Ok(Self { path, schedule, writer })
     }
 
     /// Where the next row is due.

@@ -34,6 +34,7 @@ use crate::vec3::Vec3;
 /// | `precision` | `"f64"` | or `"f32"` |
 /// | `engine` | `"event-driven"`; with a `[stepped]` table `"stepped"` | |
 /// | `duration` | | time; a run needs it |
+/// | `equilibrate` | 0 | time of a run before anything is measured |
 /// | `gravity` | `[0, 0, 0]` | length per time² |
 /// | `seed` | 0 | of all random numbers |
 /// | `encounters` | `"all"` | what spheres can meet; or `"surroundings"`, `"none"` |
@@ -344,6 +345,29 @@ impl SceneFile {
             return Err(self.mistake(&format!("{table}.every"), &format!("{every:?}"), wanted));
         }
         Ok(Written { file: file.map(|file| self.folder.join(file)), every })
+    }
+
+    /// `equilibrate`: how much of a run passes before anything is measured, time; 0 by
+    /// default.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// assert_eq!(SceneFile::parse("gas", "equilibrate = 2")?.equilibration(10.0)?, 2.0);
+    /// assert!(SceneFile::parse("gas", "equilibrate = 2")?.equilibration(1.0).is_err());
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If it is negative, or leaves nothing of a run of this duration.
+    pub fn equilibration(&self, duration: f64) -> Result<f64, SceneError> {
+        let Some(time) = number(self.raw.equilibrate) else { return Ok(0.0) };
+        if (0.0..duration).contains(&time) {
+            return Ok(time);
+        }
+        let wanted = format!(
+            "it is a part of the duration, from 0 to below {duration:?}, before anything is measured"
+        );
+        Err(self.mistake("equilibrate", &format!("{time:?}"), &wanted))
     }
 
     /// Builds and checks the scene in a precision.

@@ -22,6 +22,7 @@ pub(super) struct RawScene {
     pub(super) precision: Option<Precision>,
     pub(super) engine: Option<EngineKind>,
     pub(super) duration: Option<Number>,
+    pub(super) equilibrate: Option<Number>,
     pub(super) gravity: Option<Vector>,
     pub(super) seed: Option<Whole>,
     pub(super) encounters: Option<Encounters>,

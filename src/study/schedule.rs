@@ -29,6 +29,8 @@ use crate::real::Real;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Schedule {
     every: f64,
+    /// Time of the first.
+    start: f64,
     /// Length of a step; `None` without steps.
     step: Option<f64>,
     length: f64,
@@ -47,7 +49,13 @@ impl Schedule {
             World::Stepped(world) => Some(world.exact_dt()),
             World::EventDriven(_) => None,
         };
-        Self { every, step, length: course.length(), next: 0 }
+        Self { every, start: 0.0, step, length: course.length(), next: 0 }
+    }
+
+    /// The same, with the first at another time than the start of the run.
+    #[must_use]
+    pub fn starting(self, start: f64) -> Self {
+        Self { start, ..self }
     }
 
     /// Where it is due next, in steps or in time; `None` if that is not on the course.
@@ -60,14 +68,14 @@ impl Schedule {
     /// Done at a place, and whatever else was due up to there.
     pub fn pass(&mut self, position: f64) {
         let time = position * self.step.unwrap_or(1.0);
-        self.next = self.next.max((time / self.every) as u64);
+        self.next = self.next.max(((time - self.start) / self.every) as u64);
         while self.position(self.next) <= position {
             self.next += 1;
         }
     }
 
     fn position(&self, number: u64) -> f64 {
-        let time = number as f64 * self.every;
+        let time = self.start + number as f64 * self.every;
         let position = match self.step {
             None => time,
             Some(step) => {

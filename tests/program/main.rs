@@ -6,6 +6,7 @@ mod ends;
 mod event_driven;
 mod files;
 mod frames;
+mod measured;
 mod series;
 mod sound;
 mod states;
