@@ -7,6 +7,8 @@ mod event_driven;
 mod frame;
 mod interface;
 mod plan;
+#[cfg(feature = "files")]
+mod snapshot;
 mod stepped;
 mod world;
 
@@ -20,6 +22,8 @@ pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
 pub use plan::{Plan, Turning};
+#[cfg(feature = "files")]
+pub use snapshot::Snapshot;
 pub use stepped::Stepped;
 pub use world::World;
 
@@ -150,7 +154,7 @@ impl Execution {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "files", derive(Serialize))]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Collisions {
     /// Between two bodies.
@@ -242,6 +246,12 @@ pub enum EngineError {
         /// Simulated time.
         time: f64,
     },
+    /// A snapshot of another scene.
+    #[error(
+        "the snapshot is not of this scene: its {0} do not fit; give the scene, engine and precision \
+         that it was taken of"
+    )]
+    Snapshot(&'static str),
     /// The system has no threads to give.
     #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]
     Threads(#[from] rayon::ThreadPoolBuildError),

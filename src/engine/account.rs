@@ -1,5 +1,8 @@
 //! Account: what is added up over all collisions.
 
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
 use super::Collisions;
 use crate::compensated::CompensatedSum;
 use crate::real::Real;
@@ -18,6 +21,7 @@ use crate::vec3::Vec3;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Effort {
     /// Pairs whose contact was looked for.
@@ -44,6 +48,7 @@ pub struct Totals {
 /// Counts and sums over the collisions so far, in the order in which they took
 /// effect, which no worker decides. A restart file keeps all of it.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub struct Account {
     pub collisions: Collisions,
     pub effort: Effort,

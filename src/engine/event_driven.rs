@@ -26,10 +26,14 @@ mod period;
 mod region;
 mod search;
 mod setting;
+#[cfg(feature = "files")]
+mod snapshot;
 mod turns;
 
 use super::account::Effort;
 use super::interface::EventEngine;
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -37,6 +41,8 @@ use crate::scene::Scene;
 use crate::vec3::Vec3;
 
 pub(super) use driver::Driver;
+#[cfg(feature = "files")]
+pub(super) use snapshot::EventState;
 
 /// A scene in motion, from collision to collision.
 ///
@@ -355,6 +361,16 @@ impl<T: Real> EventDriven<T> {
     #[must_use]
     pub fn effort(&self) -> Effort {
         self.engine.effort()
+    }
+
+    #[cfg(feature = "files")]
+    pub(super) fn save(&self) -> Snapshot {
+        self.engine.save()
+    }
+
+    #[cfg(feature = "files")]
+    pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        self.engine.restore(saved)
     }
 
     /// The bytes of memory that the engine holds.

@@ -8,6 +8,8 @@
 
 use super::account::{Effort, Totals};
 use super::interface::{Engine, EventEngine, StepEngine};
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{EngineError, Event, Listener, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
@@ -264,6 +266,16 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
 
     fn bodies(&self) -> Bodies<T> {
         self.frame.leave(self.engine.bodies())
+    }
+
+    #[cfg(feature = "files")]
+    fn save(&self) -> Snapshot {
+        self.engine.save()
+    }
+
+    #[cfg(feature = "files")]
+    fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        self.engine.restore(saved)
     }
 
     fn bytes(&self) -> usize {

@@ -4,6 +4,8 @@ use super::clock::Clock;
 use super::period::begin_period;
 use super::region::Region;
 use super::setting::Setting;
+#[cfg(feature = "files")]
+use super::snapshot;
 use super::turns::{next_turn, take_turn};
 use crate::bodies::Bodies;
 use crate::column::Column;
@@ -11,6 +13,8 @@ use crate::compensated::CompensatedSum;
 use crate::engine::account::{Account, Effort, Totals};
 use crate::engine::interface::{Engine, EventEngine};
 use crate::engine::plan::{Plan, Turning};
+#[cfg(feature = "files")]
+use crate::engine::snapshot::{Misfit, Snapshot, State};
 use crate::engine::{EngineError, Execution, Listener};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
@@ -177,6 +181,20 @@ impl<T: Real> Engine<T> for Driver<T> {
             }
         }
         bodies
+    }
+
+    #[cfg(feature = "files")]
+    fn save(&self) -> Snapshot {
+        let state = State::EventDriven(snapshot::save(&self.region, &self.clock));
+        Snapshot { account: self.account.clone(), state }
+    }
+
+    #[cfg(feature = "files")]
+    fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        let State::EventDriven(state) = &saved.state else { return Err(Misfit("engine")) };
+        snapshot::restore(&self.setting, &mut self.region, &mut self.clock, state)?;
+        self.account.clone_from(&saved.account);
+        Ok(())
     }
 
     fn bytes(&self) -> usize {

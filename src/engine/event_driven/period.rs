@@ -18,6 +18,7 @@ use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::space::Space;
+use crate::space::cells::Cells;
 
 /// How far bodies fly in a period, in mean distances, at the mean speed.
 const FLIGHT: f64 = 8.0;
@@ -58,15 +59,30 @@ pub(super) fn begin_period<T: Real>(
     let counted = clock.end_period(end);
     region.is_too_fast = false;
     (clock.period, clock.too_fast) = chosen_period(setting, region, longer);
+    sort(setting, region);
+    look_ahead_of_all(setting, region, clock, account, counted, T::ZERO);
+}
+
+/// Finds all that is ahead of the bodies at a time of the present period, where they
+/// have met all that they meet before it. `counted` are turns in a time, if any were
+/// counted.
+pub(super) fn look_ahead_of_all<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    clock: &Clock<T>,
+    account: &mut Account,
+    counted: Option<f64>,
+    now: T,
+) {
     let turns =
         counted.unwrap_or_else(|| TURNS * region.records.len() as f64 / clock.period.to_f64());
     region.calendar.begin(clock.period, turns, TOGETHER);
-    sort(setting, region);
+    fill_cells(setting, region, now);
     let scales = scales(setting, region, clock);
     region.coarse.begin(&region.records, &scales);
     for slot in 0..region.records.len() as u32 {
-        plan_crossing(setting, region, slot, T::ZERO, clock.period);
-        search(setting, region, &mut account.effort, slot, T::ZERO, clock.period);
+        plan_crossing(setting, region, slot, now, clock.period);
+        search(setting, region, &mut account.effort, slot, now, clock.period);
         enter(region, slot);
     }
 }
@@ -171,17 +187,11 @@ fn scales<T: Real>(setting: &Setting<T>, region: &Region<T>, clock: &Clock<T>) -
 
 /// Sorts the bodies by cell: neighbours in space become neighbours in memory.
 fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
-    let cells = &mut region.cells;
-    cells.clear();
-    let cells = cells.finest();
-    // A flight may have started before the period.
-    let cell_of = |record: &Record<T>| {
-        let (position, _) = setting.state_of(&record.flight(), T::ZERO);
-        cells.cell_of(position)
-    };
+    let cells = region.cells.finest();
     let mut order: Vec<(u32, u32, u32)> = Vec::with_capacity(region.records.len());
     for (slot, record) in region.records.iter().enumerate() {
-        order.push((cells.number_of(cell_of(record)), region.index[slot], slot as u32));
+        let cell = cell_of(setting, cells, record, T::ZERO);
+        order.push((cells.number_of(cell), region.index[slot], slot as u32));
     }
     order.sort_unstable();
     region.records = reordered(&region.records, &order);
@@ -191,7 +201,24 @@ fn sort<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
         region.turned = reordered(&region.turned, &order);
     }
     region.marks = reordered(&region.marks, &order);
-    region.agendas = region.records.iter().map(|record| Agenda::new(cell_of(record))).collect();
+}
+
+/// The cell that a body is in at a time. A flight may have started before the period.
+fn cell_of<T: Real>(
+    setting: &Setting<T>,
+    cells: &Cells<T>,
+    record: &Record<T>,
+    time: T,
+) -> [i32; 3] {
+    cells.cell_of(setting.state_of(&record.flight(), time).0)
+}
+
+/// Puts the bodies into the cells that they are in at a time, with nothing ahead of them.
+fn fill_cells<T: Real>(setting: &Setting<T>, region: &mut Region<T>, time: T) {
+    region.cells.clear();
+    let cells = region.cells.finest();
+    let agenda = |record: &Record<T>| Agenda::new(cell_of(setting, cells, record, time));
+    region.agendas = region.records.iter().map(agenda).collect();
     if setting.plan.has_pairs {
         for (slot, agenda) in region.agendas.iter().enumerate() {
             let level = region.level_of(slot);

@@ -1,0 +1,131 @@
+//! Snapshot: what the event-driven engine has to remember at a moment.
+//!
+//! A contact time is a function of two flights alone, so that all that is ahead of the
+//! bodies is found again from their flights.
+
+use serde::{Deserialize, Serialize};
+
+use super::agenda::{Mark, PartnerCode};
+use super::clock::{Clock, ClockState};
+use super::flight::{Flight, Record};
+use super::period::look_ahead_of_all;
+use super::region::Region;
+use super::setting::Setting;
+use crate::engine::account::Account;
+use crate::engine::snapshot::{Misfit, Reals, Reals3};
+use crate::mat3::Mat3;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The bodies by slot, as they were sorted where the period began.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::engine) struct EventState {
+    clock: ClockState,
+    is_too_fast: bool,
+    index: Vec<u32>,
+    /// Centres and velocities where flights started.
+    position: Reals3,
+    velocity: Reals3,
+    /// When they started, since the period's start.
+    since: Reals,
+    /// What each body met last.
+    last: Vec<u32>,
+    /// Where contacts change spins: those, orientations, and since when these are true.
+    turning: Option<Turning>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Turning {
+    spin: Reals3,
+    orientation: [Reals; 9],
+    since: Reals,
+}
+
+/// What is to be remembered.
+pub(super) fn save<T: Real>(region: &Region<T>, clock: &Clock<T>) -> EventState {
+    let flights = || region.records.iter().map(Record::flight);
+    let vectors = |of: &dyn Fn(Flight<T>) -> Vec3<T>| -> Reals3 {
+        core::array::from_fn(|axis| Reals::of(flights().map(|flight| of(flight).to_array()[axis])))
+    };
+    let (spins, turned) = (&region.spins, &region.turned);
+    EventState {
+        clock: clock.save(),
+        is_too_fast: region.is_too_fast,
+        index: region.index.clone(),
+        position: vectors(&|flight| flight.position),
+        velocity: vectors(&|flight| flight.velocity),
+        since: Reals::of(flights().map(|flight| flight.since)),
+        last: region.marks.iter().map(|mark| mark.last.code()).collect(),
+        turning: (!turned.is_empty()).then(|| Turning {
+            spin: core::array::from_fn(|axis| {
+                Reals::of(spins.iter().map(|spin| spin.to_array()[axis]))
+            }),
+            orientation: core::array::from_fn(|k| {
+                Reals::of(turned.iter().map(|(orientation, _)| orientation.rows()[k]))
+            }),
+            since: Reals::of(turned.iter().map(|(_, since)| *since)),
+        }),
+    }
+}
+
+/// Goes on from there, with a region of the scene at its start.
+pub(super) fn restore<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    clock: &mut Clock<T>,
+    saved: &EventState,
+) -> Result<(), Misfit> {
+    let len = region.records.len();
+    let three = |columns: &Reals3, what| -> Result<Vec<Vec3<T>>, Misfit> {
+        let [x, y, z] = columns.each_ref().map(|column| column.read::<T>(len, what));
+        let (x, y, z) = (x?, y?, z?);
+        Ok((0..len).map(|slot| Vec3::new(x[slot], y[slot], z[slot])).collect())
+    };
+    let mut has = vec![false; len];
+    for &index in &saved.index {
+        *has.get_mut(index as usize).ok_or(Misfit("bodies"))? = true;
+    }
+    if saved.index.len() != len || saved.last.len() != len || !has.iter().all(|has| *has) {
+        return Err(Misfit("bodies"));
+    }
+    let restored = Clock::restored(&saved.clock)?;
+    let (position, velocity) =
+        (three(&saved.position, "positions")?, three(&saved.velocity, "velocities")?);
+    let since: Vec<T> = saved.since.read(len, "flights")?;
+    let turning = match &saved.turning {
+        None if region.turned.is_empty() => None,
+        Some(turning) if !region.turned.is_empty() => {
+            let mut rows = Vec::with_capacity(9);
+            for row in &turning.orientation {
+                rows.push(row.read::<T>(len, "orientations")?);
+            }
+            let since: Vec<T> = turning.since.read(len, "orientations")?;
+            let orientation =
+                |slot: usize| Mat3::from_rows(core::array::from_fn(|k| rows[k][slot]));
+            let turned = (0..len).map(|slot| (orientation(slot), since[slot])).collect();
+            Some((three(&turning.spin, "spins")?, turned))
+        }
+        _ => return Err(Misfit("orientations")),
+    };
+    region.records = (0..len)
+        .map(|slot| {
+            let radius = setting.bodies.radius.of(saved.index[slot] as usize);
+            let (position, velocity) = (position[slot], velocity[slot]);
+            Record::new(Flight { position, velocity, since: since[slot], radius })
+        })
+        .collect();
+    region.index.clone_from(&saved.index);
+    let mark = |code: &u32| Mark { changes: 0, last: PartnerCode::from_code(*code) };
+    region.marks = saved.last.iter().map(mark).collect();
+    if let Some((spins, turned)) = turning {
+        (region.spins, region.turned) = (spins, turned);
+    }
+    region.is_too_fast = saved.is_too_fast;
+    *clock = restored;
+    // Whatever is counted here was counted before.
+    let mut uncounted = Account::default();
+    // The bodies have met all that they meet before this time, and nothing since.
+    let now = clock.last_collision;
+    look_ahead_of_all(setting, region, clock, &mut uncounted, None, now);
+    Ok(())
+}
