@@ -7,6 +7,7 @@ mod explain;
 mod failure;
 mod interrupt;
 mod journey;
+mod kept;
 mod measured;
 mod outlook;
 mod output_file;
@@ -78,6 +79,10 @@ fn answered(answer: &clap::Error) -> ExitCode {
 fn failed(failure: &Failure) -> ExitCode {
     if failure.is_closed_pipe() {
         return ExitCode::SUCCESS;
+    }
+    if let Failure::Kept { words, .. } = failure {
+        let _ = writeln!(io::stderr(), "\n{}", plain(words));
+        return ExitCode::from(failure.exit_status());
     }
     // No message can be written when standard error is closed too.
     let _ = writeln!(io::stderr(), "error: {}", plain(&failure.to_string()));

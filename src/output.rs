@@ -8,6 +8,7 @@
 mod events;
 #[cfg(feature = "study")]
 mod frames;
+mod sealed;
 mod series;
 mod state;
 #[cfg(feature = "study")]
@@ -16,6 +17,7 @@ mod whole_file;
 pub use events::{EVENT_COLUMNS, EventWriter};
 #[cfg(feature = "study")]
 pub use frames::{Frame, FrameFormat, FrameWriter};
+pub use sealed::{Unsealed, sealed, unsealed};
 pub use series::{SeriesColumn, SeriesWriter};
 pub use state::{STATE_COLUMNS, write_state};
 #[cfg(feature = "study")]

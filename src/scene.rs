@@ -48,6 +48,8 @@ mod lines;
 mod obstacles;
 mod origin;
 #[cfg(feature = "files")]
+mod outputs;
+#[cfg(feature = "files")]
 mod pieces;
 mod random;
 #[cfg(feature = "files")]
@@ -55,6 +57,8 @@ mod raw;
 #[cfg(feature = "files")]
 mod reading;
 mod settings;
+#[cfg(feature = "files")]
+mod source;
 mod spheres;
 #[cfg(feature = "files")]
 mod state_file;
@@ -72,4 +76,6 @@ pub use settings::{
     Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS, OrientationUpdate, Precision,
     SteppedSettings, Summation,
 };
+#[cfg(feature = "files")]
+pub use source::SceneSource;
 pub use spheres::{Arrangement, Sphere, Spheres, Spread};

@@ -82,7 +82,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 24] = [
+const SCENE: [&str; 26] = [
     "settings",
     "spheres",
     "random",
@@ -106,6 +106,8 @@ const SCENE: [&str; 24] = [
     "reading",
     "state_file",
     "file",
+    "outputs",
+    "source",
     "dilated",
 ];
 

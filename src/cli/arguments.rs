@@ -47,6 +47,8 @@ Examples:
   carom run gas.toml --events e.csv --threads 1  write down every collision
   carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
   carom run gas.toml --series gas.csv --series-every 0.1   figures of it in time
+  carom run gas.toml --snapshot gas.snapshot --snapshot-wall 10   keep the run
+  carom run --resume gas.snapshot --duration 20            and go on with it
   carom run gas.toml --set spheres[0].radius=0.4 --set surface.kind=smooth
                                                  other values of its keys
   carom run gas.toml --json | jq .energy         the summary for a program
@@ -178,6 +180,25 @@ pub struct RunArguments {
     /// Time from one row of --series to the next; the first one is the start
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub series_every: Option<f64>,
+
+    /// Keep the run in a file that it can go on from: at its end, on USR1, and when it
+    /// is ended by Ctrl-C, TERM or HUP
+    #[arg(long, value_name = "FILE")]
+    pub snapshot: Option<PathBuf>,
+
+    /// Keep it also every so much of the scene's time
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub snapshot_every: Option<f64>,
+
+    /// Keep it also every so many minutes of the clock on the wall
+    #[arg(long, value_name = "MINUTES", value_parser = positive, allow_negative_numbers = true)]
+    pub snapshot_wall: Option<f64>,
+
+    /// Go on from a snapshot, with the bits of a run that was never cut; --duration still
+    /// counts from the start of the first run
+    #[arg(long, value_name = "FILE",
+          conflicts_with_all = ["scene", "precision", "engine", "dt", "seed", "set"])]
+    pub resume: Option<PathBuf>,
 }
 
 /// What `carom plot` takes.

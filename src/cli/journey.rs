@@ -14,8 +14,10 @@ use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::failure::Failure;
+use super::interrupt;
+use super::kept::{Keeper, Notes};
 use super::measured::Measured;
-use super::output_file::{OutputError, OutputFile};
+use super::output_file::{KeptFile, OutputError, OutputFile};
 use super::progress::Progress;
 use super::recording::Recorder;
 use super::series::Series;
@@ -26,11 +28,19 @@ const STRETCH: Duration = Duration::from_millis(50);
 /// What a run writes on its way.
 pub struct OnTheWay {
     /// Every collision.
-    pub events: Option<OutputFile>,
+    pub events: Option<Events>,
     /// Frames.
     pub record: Option<Recorder>,
     /// Figures.
     pub series: Option<Series>,
+    /// The run itself, to go on from.
+    pub keeper: Option<Keeper>,
+}
+
+impl Drop for OnTheWay {
+    fn drop(&mut self) {
+        interrupt::keeps(false);
+    }
 }
 
 /// A run under way.
@@ -59,9 +69,16 @@ impl<T: Real> Journey<T> {
         Self { course, busy: Duration::ZERO, space, energy, measured, images: None }
     }
 
-    /// Keeps count of the boxes that bodies move through, from now on.
-    pub fn count_images(&mut self, world: &World<T>) {
-        let images = self.space.map(|space| Images::new(space, &world.bodies()));
+    /// Keeps count of the boxes that bodies move through, from now on; `counted` are those
+    /// of a run that goes on.
+    pub fn count_images(&mut self, world: &World<T>, counted: Option<&Vec<[i32; 3]>>) {
+        let images = self.space.map(|space| {
+            let images = Images::new(space, &world.bodies());
+            match counted.filter(|counted| counted.len() == images.counts().len()) {
+                Some(counted) => images.after(counted.clone()),
+                None => images,
+            }
+        });
         self.images = images.map(|images| (images, 0.0));
     }
 
@@ -75,20 +92,22 @@ impl<T: Real> Journey<T> {
     pub fn travel(
         &mut self,
         world: &mut World<T>,
-        on_the_way: OnTheWay,
+        mut on_the_way: OnTheWay,
     ) -> Result<Vec<OutputFile>, Failure> {
-        let OnTheWay { events, mut record, mut series } = on_the_way;
         let mut progress = Progress::new(self.course, self.energy);
-        let mut events = events.map(Events::new).transpose()?;
         let mut stretch: u64 = 1;
         let length = self.course.length();
+        if let Some(keeper) = &mut on_the_way.keeper {
+            keeper.set_out(world, &self.course);
+            interrupt::keeps(true);
+        }
         let start = Instant::now();
-        self.look(world, record.as_mut(), series.as_mut())?;
+        self.look(world, &mut on_the_way)?;
         self.busy += start.elapsed();
         loop {
-            let mark = self.mark(record.as_ref(), series.as_ref());
+            let mark = self.mark(&on_the_way);
             let start = Instant::now();
-            let is_there = match &mut events {
+            let is_there = match &mut on_the_way.events {
                 None => self.course.advance(world, mark, stretch, None)?,
                 Some(events) => events.advance(|on_event| {
                     self.course.advance(world, mark, stretch, Some(on_event))
@@ -102,45 +121,72 @@ impl<T: Real> Journey<T> {
                 stretch = (stretch / 2).max(1);
             }
             progress.show(world, self.busy);
-            if !is_there {
-                continue;
-            }
             let start = Instant::now();
-            self.look(world, record.as_mut(), series.as_mut())?;
+            if is_there {
+                self.look(world, &mut on_the_way)?;
+            }
+            let is_end = is_there && mark >= length;
+            self.keep(world, &mut on_the_way, is_end)?;
             self.busy += start.elapsed();
-            if mark >= length {
+            if is_end {
                 break;
             }
         }
         let start = Instant::now();
-        let events = events.map(Events::finish).transpose()?;
-        let record = record.map(Recorder::finish).transpose()?;
-        let series = series.map(Series::finish).transpose()?;
+        let events = on_the_way.events.take().map(Events::finish).transpose()?;
+        let record = on_the_way.record.take().map(Recorder::finish).transpose()?;
+        let series = on_the_way.series.take().map(Series::finish).transpose()?;
         self.busy += start.elapsed();
         Ok([events, record, series].into_iter().flatten().collect())
     }
 
+    /// Keeps the run at its end, where it is due, and when it is asked to end, which it
+    /// does then.
+    fn keep(
+        &mut self,
+        world: &World<T>,
+        on_the_way: &mut OnTheWay,
+        is_end: bool,
+    ) -> Result<(), Failure> {
+        let OnTheWay { events, record, series, keeper } = on_the_way;
+        let Some(keeper) = keeper else { return Ok(()) };
+        let asked = interrupt::asked_to_end().filter(|_| !is_end);
+        if !is_end && asked.is_none() && !keeper.is_due(Course::position(world)) {
+            return Ok(());
+        }
+        if let Some((images, _)) = &mut self.images {
+            images.look(&world.bodies());
+        }
+        let notes = Notes {
+            length: self.course.length(),
+            measured: self.measured.clone(),
+            images: self.images.as_ref().map(|(images, _)| images.counts().to_vec()),
+            events: events.as_mut().map(Events::keep).transpose()?.flatten(),
+            record: record.as_mut().map(Recorder::keep).transpose()?,
+            series: series.as_mut().map(Series::keep).transpose()?,
+        };
+        keeper.keep(world, notes)?;
+        asked.map_or(Ok(()), |status| Err(keeper.ended(world.time(), status)))
+    }
+
     /// Where the bodies are to be looked at next.
-    fn mark(&self, record: Option<&Recorder>, series: Option<&Series>) -> f64 {
+    fn mark(&self, on_the_way: &OnTheWay) -> f64 {
         let length = self.course.length();
         let measure = self.measured.mark(length);
         let look = self.images.as_ref().map(|(_, look)| *look);
-        let frame = record.and_then(Recorder::mark);
-        let row = series.and_then(Series::mark);
-        [measure, look, frame, row].into_iter().flatten().fold(length, f64::min)
+        let frame = on_the_way.record.as_ref().and_then(Recorder::mark);
+        let row = on_the_way.series.as_ref().and_then(Series::mark);
+        let kept = on_the_way.keeper.as_ref().and_then(Keeper::mark);
+        [measure, look, frame, row, kept].into_iter().flatten().fold(length, f64::min)
     }
 
     /// Looks at the bodies, for all that is due.
-    fn look(
-        &mut self,
-        world: &World<T>,
-        record: Option<&mut Recorder>,
-        series: Option<&mut Series>,
-    ) -> Result<(), Failure> {
+    fn look(&mut self, world: &World<T>, on_the_way: &mut OnTheWay) -> Result<(), Failure> {
         let position = Course::position(world);
         let length = self.course.length();
-        let record = record.filter(|record| record.mark() == Some(position));
-        let series = series.filter(|series| series.mark() == Some(position));
+        let OnTheWay { record, series, .. } = on_the_way;
+        let record = record.as_mut().filter(|record| record.mark() == Some(position));
+        let series = series.as_mut().filter(|series| series.mark() == Some(position));
         let bodies = OnceCell::new();
         let bodies = || bodies.get_or_init(|| world.bodies());
         while self.measured.mark(length).is_some_and(|mark| mark <= position) {
@@ -173,14 +219,18 @@ impl<T: Real> Journey<T> {
 }
 
 /// An events file under way.
-struct Events {
+pub struct Events {
     path: PathBuf,
     writer: EventWriter<OutputFile>,
 }
 
 impl Events {
-    fn new(file: OutputFile) -> Result<Self, OutputError> {
+    /// Collisions into an open file, after those that it has.
+    pub fn new(file: OutputFile) -> Result<Self, OutputError> {
         let path = file.path().to_path_buf();
+        if file.is_begun() {
+            return Ok(Self { path, writer: EventWriter::further(file) });
+        }
         match EventWriter::new(file) {
             Ok(writer) => Ok(Self { path, writer }),
             Err(source) => Err(OutputError::Write { path, source }),
@@ -197,6 +247,12 @@ impl Events {
             .check()
             .map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
         Ok(result?)
+    }
+
+    /// Brings all collisions so far to the disk, and says what is to be remembered.
+    fn keep(&mut self) -> Result<Option<KeptFile>, OutputError> {
+        let kept = self.writer.flush().and_then(OutputFile::keep);
+        kept.map_err(|source| OutputError::Write { path: self.path.clone(), source })
     }
 
     fn finish(self) -> Result<OutputFile, OutputError> {

@@ -7,6 +7,7 @@ use carom::engine::{Collisions, World};
 use carom::observe::{Statistic, Temperature, collision_rate, compressibility};
 use carom::real::Real;
 use carom::study::{Course, Schedule};
+use serde::{Deserialize, Serialize};
 
 /// Into how many blocks the measured part of a gas is divided: a power of two, so that
 /// their ends are exact.
@@ -16,7 +17,7 @@ const BLOCKS: u32 = 32;
 const UNEQUAL: f64 = 0.1;
 
 /// What has added up at a moment of a run.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Reading {
     pub time: f64,
     pub collisions: Collisions,
@@ -51,7 +52,7 @@ impl Reading {
 }
 
 /// The measured part of a run.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Measured {
     /// Where it begins, in steps or in time.
     begin: f64,
@@ -61,7 +62,7 @@ pub struct Measured {
 }
 
 /// A gas in a periodic box: its temperature, and what adds up block by block.
-#[derive(Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Gas {
     /// Whether collisions change its temperature.
     exchanges: bool,
@@ -93,6 +94,16 @@ impl Measured {
             integral: 0.0,
         });
         Self { begin: begin.unwrap_or(0.0), before: None, gas }
+    }
+
+    /// The same on a course of another length: the blocks begin again.
+    pub fn stretched(mut self) -> Self {
+        if let Some(gas) = &mut self.gas {
+            let last = gas.readings.pop();
+            gas.readings.clear();
+            gas.readings.extend(last);
+        }
+        self
     }
 
     /// Where something is due next, on a course of this length.

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::arguments::RunArguments;
 use super::failure::Failure;
-use super::output_file::{Destination, OutputError, OutputFile};
+use super::kept::Notes;
+use super::output_file::{Destination, KeptFile, OutputError, OutputFile};
 
 /// The files of a run.
 pub struct Outputs {
@@ -22,12 +23,15 @@ impl Outputs {
         arguments: &RunArguments,
         record: Option<&Path>,
         series: Option<&Path>,
+        snapshot: Option<&Path>,
+        notes: Option<&Notes>,
     ) -> Result<Self, Failure> {
         let asked = [
             ("--events", arguments.events.as_deref()),
             ("--state", arguments.state.as_deref()),
             ("--record", record),
             ("--series", series),
+            ("--snapshot", snapshot),
         ];
         let mut named: Vec<(&'static str, Destination)> = Vec::new();
         let scene = arguments.scene.scene.as_deref().and_then(|path| path.canonicalize().ok());
@@ -56,12 +60,23 @@ impl Outputs {
             named.push((option, destination));
         }
         let is_standard = |(_, destination): &_| *destination == Destination::StandardOutput;
-        let [events, state, record, series] = asked.map(|(option, path)| open(option, path));
+        // Of a run that is kept or goes on, what is on the disk counts.
+        let in_parts = snapshot.is_some() || notes.is_some();
+        let on_the_way = |option, path: Option<&Path>, kept: Option<&KeptFile>| {
+            if !in_parts {
+                return open(option, path);
+            }
+            let file = path.map(|path| OutputFile::open_part(path, kept)).transpose();
+            file.map_err(refused(option))
+        };
+        let kept_events = notes.and_then(|notes| notes.events.as_ref());
+        let kept_record = notes.and_then(|notes| notes.record.as_ref()?.file.as_ref());
+        let kept_series = notes.and_then(|notes| notes.series.as_ref()?.file.as_ref());
         Ok(Self {
-            events: events?,
-            state: state?,
-            record: record?,
-            series: series?,
+            events: on_the_way("--events", arguments.events.as_deref(), kept_events)?,
+            state: open("--state", arguments.state.as_deref())?,
+            record: on_the_way("--record", record, kept_record)?,
+            series: on_the_way("--series", series, kept_series)?,
             take_standard_output: named.iter().any(is_standard),
         })
     }

@@ -10,11 +10,12 @@ use carom::real::Real;
 use carom::scene::{EngineKind, SceneFile};
 use carom::space::PeriodicBox;
 use carom::study::{Course, Schedule};
+use serde::{Deserialize, Serialize};
 
 use super::arguments::RunArguments;
 use super::asked::{Asked, Words};
 use super::failure::Failure;
-use super::output_file::{OutputError, OutputFile};
+use super::output_file::{KeptFile, OutputError, OutputFile};
 
 /// What they are called.
 const WORDS: Words = Words { things: "frames", option: "--record", table: "record" };
@@ -37,10 +38,18 @@ impl Recording {
         let Some(asked) = Asked::of(WORDS, options, file.record()?, duration)? else {
             return Ok(None);
         };
+        let is_kept = arguments.resume.is_some()
+            || arguments.snapshot.is_some()
+            || file.snapshot()?.file.is_some();
         let Some(format) = FrameFormat::of(&asked.path) else {
             let wanted = format!("its ending must be {}", FrameFormat::ENDINGS);
             return Err(asked.refused(WORDS, file, &wanted));
         };
+        if is_kept && !format.goes_on() {
+            let wanted = "frames of a run that is kept by --snapshot, or that goes on by --resume, \
+                          go into a file that can be continued: .dump, .lammpstrj, .xyz or .extxyz";
+            return Err(asked.refused(WORDS, file, wanted));
+        }
         Ok(Some(Self { asked, format }))
     }
 }
@@ -59,29 +68,47 @@ pub fn state_format(path: &Path) -> Result<Option<FrameFormat>, Failure> {
     }
 }
 
+/// Frames of a run that was kept.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct KeptFrames {
+    pub file: Option<KeptFile>,
+    every: f64,
+    done: u64,
+    frames: u64,
+}
+
 /// Frames under way.
 pub struct Recorder {
     path: PathBuf,
+    every: f64,
     schedule: Schedule,
     writer: FrameWriter<OutputFile>,
     frames: u64,
 }
 
 impl Recorder {
-    /// Frames of a world into an open file.
+    /// Frames of a world into an open file, after those that were kept.
     pub fn new<T: Real>(
         recording: &Recording,
         file: OutputFile,
         world: &World<T>,
         course: &Course,
+        kept: Option<&KeptFrames>,
     ) -> Result<Self, OutputError> {
         let path = recording.asked.path.clone();
         let writer = match FrameWriter::new(recording.format, &path, file) {
             Ok(writer) => writer,
             Err(source) => return Err(OutputError::Write { path, source }),
         };
-        let schedule = Schedule::new(world, course, recording.asked.every);
-        Ok(Self { path, schedule, writer, frames: 0 })
+        let every = recording.asked.every;
+        let schedule = Schedule::new(world, course, every);
+        let kept = kept.filter(|kept| kept.every == every);
+        let schedule = match kept {
+            Some(kept) => schedule.after(kept.done),
+            None => schedule.from(Course::position(world)),
+        };
+        let frames = kept.map_or(0, |kept| kept.frames);
+        Ok(Self { path, every, schedule, writer, frames })
     }
 
     /// Where the next frame is due.
@@ -107,6 +134,14 @@ impl Recorder {
         self.frames += 1;
         self.schedule.pass(Course::position(world));
         Ok(())
+    }
+
+    /// Brings all frames so far to the disk, and says what is to be remembered.
+    pub fn keep(&mut self) -> Result<KeptFrames, OutputError> {
+        let file = self.writer.flush().and_then(OutputFile::keep);
+        let file = file.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
+        let (every, done) = (self.every, self.schedule.done());
+        Ok(KeptFrames { file, every, done, frames: self.frames })
     }
 
     /// The file, whole but for its final name.

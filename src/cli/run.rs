@@ -9,14 +9,15 @@ use carom::observe::{
 };
 use carom::output::{Frame, FrameFormat, FrameWriter, write_state};
 use carom::real::Real;
-use carom::scene::{Precision, SceneFile};
+use carom::scene::{Precision, Scene, SceneFile};
 use carom::study::Course;
 use carom::surroundings::Shape;
 
 use super::arguments::RunArguments;
 use super::asked::Asked;
 use super::failure::Failure;
-use super::journey::{Journey, OnTheWay};
+use super::journey::{Events, Journey, OnTheWay};
+use super::kept::{Keeping, Kept, options};
 use super::measured::Measured;
 use super::outlook;
 use super::output_file::{OutputError, OutputFile};
@@ -30,20 +31,60 @@ use super::{print, standard_output};
 
 /// Runs a scene and prints its summary.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let file = scene_file(&arguments.scene)?;
+    let kept = arguments.resume.as_deref().map(Kept::read).transpose()?;
+    let file = match &kept {
+        None => scene_file(&arguments.scene)?,
+        Some(kept) => {
+            let mut file = SceneFile::of_source(kept.source.clone())?;
+            file.duration = arguments.scene.duration.or(file.duration);
+            file
+        }
+    };
     match file.precision {
-        Precision::F32 => run_in::<f32>(&file, arguments),
-        _ => run_in::<f64>(&file, arguments),
+        Precision::F32 => run_in::<f32>(&file, arguments, kept.as_ref()),
+        _ => run_in::<f64>(&file, arguments, kept.as_ref()),
     }
 }
 
-fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Failure> {
+/// A scene in motion from its start, or from where it was kept, on its way to a time.
+fn set_out<T: Compiled>(
+    scene: Scene<T>,
+    arguments: &RunArguments,
+    kept: Option<&Kept>,
+    duration: f64,
+) -> Result<(World<T>, Course), Failure> {
+    let execution = arguments.scene.execution();
+    let (Some(kept), Some(path)) = (kept, &arguments.resume) else {
+        let world = World::new(scene, execution)?;
+        let course = Course::new(&world, duration);
+        return Ok((world, course));
+    };
+    kept.check_start(&scene.bodies, path)?;
+    let refused = |reason: String| Failure::Resume { path: path.clone(), reason };
+    let world = World::resume(scene, execution, &kept.snapshot)
+        .map_err(|error| refused(error.to_string()))?;
+    let course = Course::new(&world, duration);
+    if Course::position(&world) > course.length() {
+        return Err(refused(format!(
+            "it is at time {:?}, beyond the end of the run at {duration:?}; give a longer --duration",
+            kept.time
+        )));
+    }
+    Ok((world, course))
+}
+
+fn run_in<T: Compiled>(
+    file: &SceneFile,
+    arguments: &RunArguments,
+    kept: Option<&Kept>,
+) -> Result<(), Failure> {
     let start = Instant::now();
     let setting_up = SettingUp::new();
     let duration = file.run_duration()?;
     let equilibration = file.equilibration(duration)?;
     let recording = Recording::of(arguments, file, duration)?;
     let series = AskedSeries::of(arguments, file, duration)?;
+    let keeping = Keeping::of(arguments, file)?;
     let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
@@ -63,9 +104,16 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let gas = volume.filter(|_| scene.bodies.len() > 1).map(|volume| (volume, scene.surface));
     let (gravity, fall) = (scene.gravity, fall_energy(&scene));
     let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
-    let mut world = World::new(scene, arguments.scene.execution())?;
-    let course = Course::new(&world, duration);
-    let measured = Measured::new(&world, &course, equilibration, gas);
+    let snapshot = keeping.as_ref().map(|keeping| keeping.path.clone());
+    let keeper = keeping.map(|keeping| keeping.begin(file, &scene.bodies, options(arguments)));
+    let (mut world, course) = set_out(scene, arguments, kept, duration)?;
+    let notes = kept.map(|kept| &kept.notes);
+    let measured = match notes {
+        None => Measured::new(&world, &course, equilibration, gas),
+        Some(notes) if notes.length == course.length() => notes.measured.clone(),
+        Some(notes) => notes.measured.clone().stretched(),
+    };
+    let (earlier, earlier_steps) = (world.collisions(), world.steps());
     let mut journey = Journey::new(course, space, (before.energy, fall), measured);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
@@ -74,20 +122,26 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
         arguments,
         recording.as_ref().map(|recording| path(&recording.asked)).as_deref(),
         series.as_ref().map(|series| path(&series.asked)).as_deref(),
+        snapshot.as_deref(),
+        notes,
     )?;
-    if recording.is_some() || series.is_some() || state_format.is_some() {
-        journey.count_images(&world);
+    // A run that is kept may be asked for them when it goes on.
+    if recording.is_some() || series.is_some() || state_format.is_some() || snapshot.is_some() {
+        journey.count_images(&world, notes.and_then(|notes| notes.images.as_ref()));
     }
-    let record = recording
-        .zip(outputs.record)
-        .map(|(recording, file)| Recorder::new(&recording, file, &world, &course));
-    let series = series
-        .zip(outputs.series)
-        .map(|(series, file)| Series::new(&series, file, &world, &course, equilibration, volume));
+    let record = recording.zip(outputs.record).map(|(recording, file)| {
+        let kept = notes.and_then(|notes| notes.record.as_ref());
+        Recorder::new(&recording, file, &world, &course, kept)
+    });
+    let series = series.zip(outputs.series).map(|(series, file)| {
+        let kept = notes.and_then(|notes| notes.series.as_ref());
+        Series::new(&series, file, &world, &course, equilibration, volume, kept)
+    });
     let on_the_way = OnTheWay {
-        events: outputs.events,
+        events: outputs.events.map(Events::new).transpose()?,
         record: record.transpose()?,
         series: series.transpose()?,
+        keeper,
     };
     drop(setting_up);
     let setup_seconds = start.elapsed().as_secs_f64();
@@ -107,6 +161,8 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let temperature = Temperature::of(&bodies);
     let hash = state_hash(&bodies);
     let work = Work {
+        earlier,
+        earlier_steps,
         measured: journey.measured().total(&world),
         equilibration,
         mean_temperature: journey.measured().mean_temperature(course.length()),

@@ -8,11 +8,12 @@ use carom::output::{SeriesColumn, SeriesWriter};
 use carom::real::Real;
 use carom::scene::SceneFile;
 use carom::study::{Course, Schedule};
+use serde::{Deserialize, Serialize};
 
 use super::arguments::RunArguments;
 use super::asked::{Asked, Words};
 use super::failure::Failure;
-use super::output_file::{OutputError, OutputFile};
+use super::output_file::{KeptFile, OutputError, OutputFile};
 
 /// What they are called.
 const WORDS: Words = Words { things: "rows of a series", option: "--series", table: "series" };
@@ -55,15 +56,25 @@ impl AskedSeries {
     }
 }
 
+/// A series of a run that was kept.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct KeptSeries {
+    pub file: Option<KeptFile>,
+    every: f64,
+    done: u64,
+    last: Option<Sample>,
+}
+
 /// A series under way.
 pub struct Series {
     path: PathBuf,
+    every: f64,
     schedule: Schedule,
     writer: SeriesWriter<OutputFile>,
 }
 
 impl Series {
-    /// Figures of a world into an open file, from a time on; `volume` is that of a periodic
+    /// Figures of a world into an open file, from a time on, after those that were kept; `volume` is that of a periodic
     /// box.
     pub fn new<T: Real>(
         series: &AskedSeries,
@@ -72,14 +83,24 @@ impl Series {
         course: &Course,
         start: f64,
         volume: Option<f64>,
+        kept: Option<&KeptSeries>,
     ) -> Result<Self, OutputError> {
-        let path = series.asked.path.clone();
-        let writer = match SeriesWriter::new(file, series.columns.clone(), volume) {
-            Ok(writer) => writer,
+        let (path, every) = (series.asked.path.clone(), series.asked.every);
+        let columns = series.columns.clone();
+        let writer = match file.is_begun() {
+            true => Ok(SeriesWriter::further(file, columns, volume)),
+            false => SeriesWriter::new(file, columns, volume),
+        };
+        let writer = match writer {
+            Ok(writer) => writer.after(kept.and_then(|kept| kept.last)),
             Err(source) => return Err(OutputError::Write { path, source }),
         };
-        let schedule = Schedule::new(world, course, series.asked.every).starting(start);
-        Ok(Self { path, schedule, writer })
+        let schedule = Schedule::new(world, course, every).starting(start);
+        let schedule = match kept.filter(|kept| kept.every == every) {
+            Some(kept) => schedule.after(kept.done),
+            None => schedule.from(Course::position(world)),
+        };
+        Ok(Self { path, every, schedule, writer })
     }
 
     /// Where the next row is due.
@@ -93,6 +114,14 @@ impl Series {
         written.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
         self.schedule.pass(position);
         Ok(())
+    }
+
+    /// Brings all rows so far to the disk, and says what is to be remembered.
+    pub fn keep(&mut self) -> Result<KeptSeries, OutputError> {
+        let file = self.writer.flush().and_then(OutputFile::keep);
+        let file = file.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
+        let (every, done) = (self.every, self.schedule.done());
+        Ok(KeptSeries { file, every, done, last: self.writer.last() })
     }
 
     /// The file, whole but for its final name.

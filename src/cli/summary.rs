@@ -102,6 +102,10 @@ pub struct Work {
     pub steps: u64,
     /// Collisions counted, all of them.
     pub collisions: Collisions,
+    /// Those of the first part of a run that goes on.
+    pub earlier: Collisions,
+    /// Its steps.
+    pub earlier_steps: u64,
     /// The impulse of the surroundings on the bodies, mass × length per time.
     pub impulse_from_surroundings: [f64; 3],
     /// Time before anything was measured.
@@ -239,6 +243,8 @@ impl Work {
             steps: world.steps(),
             collisions: world.collisions(),
             impulse_from_surroundings: world.impulse_from_surroundings(),
+            earlier: Collisions::default(),
+            earlier_steps: 0,
             equilibration: 0.0,
             measured: Reading::default(),
             statistics: BTreeMap::new(),
@@ -291,8 +297,10 @@ impl Summary {
             state_hash,
             wall_seconds: setup_seconds + engine_seconds,
             setup_seconds,
-            collisions_per_second: per_second(work.collisions.total() as f64),
-            body_steps_per_second: per_second(setup.bodies as f64 * steps as f64),
+            collisions_per_second: per_second(work.collisions.since(work.earlier).total() as f64),
+            body_steps_per_second: per_second(
+                setup.bodies as f64 * (steps - work.earlier_steps) as f64,
+            ),
             setup,
         }
     }

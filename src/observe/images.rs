@@ -76,6 +76,22 @@ impl<T: Real> Images<T> {
         2.0 * reach / (speed + (speed * speed + 2.0 * pull * reach).sqrt())
     }
 
+    /// The same with what was counted before `bodies` were where they are.
+    ///
+    /// # Panics
+    /// If there are not as many counts as bodies.
+    #[must_use]
+    pub fn after(self, crossed: Vec<[i32; 3]>) -> Self {
+        assert_eq!(crossed.len(), self.crossed.len(), "counts for other bodies");
+        Self { crossed, ..self }
+    }
+
+    /// What was counted for each body.
+    #[must_use]
+    pub fn counts(&self) -> &[[i32; 3]] {
+        &self.crossed
+    }
+
     /// The sides of the box, length.
     #[must_use]
     pub fn sides(&self) -> [f64; 3] {

@@ -1,5 +1,8 @@
 //! Sample: what is measured of a scene in motion at one time.
 
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
 use super::{Energy, Images, Momentum, Temperature, collision_rate, compressibility, total_mass};
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
@@ -24,6 +27,7 @@ use crate::real::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Sample {
     /// Time since the start.

@@ -10,7 +10,7 @@ mod rows;
 mod xyz;
 mod zip;
 
-use std::io::{self, BufWriter};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use crate::bodies::Bodies;
@@ -61,6 +61,12 @@ pub enum FrameFormat {
 impl FrameFormat {
     /// The endings that there are.
     pub const ENDINGS: &'static str = ".dump, .lammpstrj, .xyz, .extxyz, .pvd or .npz";
+
+    /// Whether frames can be added to a file that was closed.
+    #[must_use]
+    pub fn goes_on(self) -> bool {
+        matches!(self, Self::Dump | Self::Xyz)
+    }
 
     /// The format of a file by its ending; `None` if it is another one.
     #[must_use]
@@ -138,6 +144,21 @@ impl<W: io::Write> FrameWriter<W> {
         }
     }
 
+    /// Hands all frames so far on to the output, in the formats that can go on in the same
+    /// file later ([`goes_on`](FrameFormat::goes_on)).
+    ///
+    /// # Errors
+    /// If the output takes no more, or the format is another one.
+    pub fn flush(&mut self) -> io::Result<&W> {
+        match &mut self.format {
+            Writer::Dump(output) | Writer::Xyz(output) => {
+                output.flush()?;
+                Ok(output.get_ref())
+            }
+            _ => Err(io::ErrorKind::Unsupported.into()),
+        }
+    }
+
     /// Writes what is left, and gives the output back.
     ///
     /// # Errors
@@ -150,14 +171,5 @@ impl<W: io::Write> FrameWriter<W> {
             Writer::ParaView(series) => series.finish(),
             Writer::NumPy(columns) => columns.finish(),
         }
-    }
-}
-
-/// Adds the bytes of a number in its precision, the least significant first.
-fn push_bytes<T: Real>(bytes: &mut Vec<u8>, value: T) {
-    if T::NAME == f32::NAME {
-        bytes.extend_from_slice(&(value.to_f64() as f32).to_le_bytes());
-    } else {
-        bytes.extend_from_slice(&value.to_f64().to_le_bytes());
     }
 }

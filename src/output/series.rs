@@ -133,6 +133,34 @@ impl<W: io::Write> SeriesWriter<W> {
         Ok(Self { writer, line: CsvLine::default(), columns, volume, before: None })
     }
 
+    /// Goes on after other rows, without the names of the columns.
+    #[must_use]
+    pub fn further(output: W, columns: Vec<SeriesColumn>, volume: Option<f64>) -> Self {
+        let writer = csv_writer(output);
+        Self { writer, line: CsvLine::default(), columns, volume, before: None }
+    }
+
+    /// Rates of the next row are of the time since this sample.
+    #[must_use]
+    pub fn after(self, before: Option<Sample>) -> Self {
+        Self { before, ..self }
+    }
+
+    /// Hands all rows so far on to the output.
+    ///
+    /// # Errors
+    /// If the output takes no more.
+    pub fn flush(&mut self) -> io::Result<&W> {
+        self.writer.flush()?;
+        Ok(self.writer.get_ref())
+    }
+
+    /// The sample of the last row.
+    #[must_use]
+    pub fn last(&self) -> Option<Sample> {
+        self.before
+    }
+
     /// Writes a sample, which is later than the one before.
     ///
     /// # Errors

@@ -14,12 +14,9 @@ use super::error::{Problem, SceneError};
 use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
-use super::raw::{
-    KEYS, Number, RawPeriodic, RawScene, RawSeries, RawSpheres, RawSurroundings, RawWritten,
-    Vector, Whole,
-};
+use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
 use super::reading;
-use super::settings::{EngineKind, Precision, SteppedSettings, Written};
+use super::settings::{EngineKind, Precision, SteppedSettings};
 use super::spheres::{Arrangement, Make, Sphere, Spheres, Spread};
 use super::state_file::StateFile;
 use crate::real::Real;
@@ -49,7 +46,8 @@ use crate::vec3::Vec3;
 /// | `summation` | `"auto"` | or `"plain"`, `"compensated"` |
 ///
 /// `[record]` has the `file` of frames that a run writes, and `every` how much time;
-/// `[series]` the same of a time series, and the `columns` in it.
+/// `[series]` the same of a time series, and the `columns` in it; `[snapshot]` where and
+/// how `every` much time, or `wall` minutes, a run is kept.
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
@@ -105,12 +103,12 @@ pub struct SceneFile {
     pub dt: Option<f64>,
     /// The seed of all random numbers; 0 by default.
     pub seed: u64,
-    path: String,
+    pub(super) path: String,
     /// What paths in the file start from.
-    folder: PathBuf,
-    text: Arc<str>,
+    pub(super) folder: PathBuf,
+    pub(super) text: Arc<str>,
     /// What takes the place of the text's values.
-    set: Vec<String>,
+    pub(super) set: Vec<String>,
     pub(super) raw: RawScene,
 }
 
@@ -165,7 +163,8 @@ impl SceneFile {
         Self::read(name, text.into(), Vec::new())
     }
 
-    fn read(name: &str, text: Arc<str>, set: Vec<String>) -> Result<Self, SceneError> {
+    /// Reads a text with assignments in the place of its values.
+    pub(super) fn read(name: &str, text: Arc<str>, set: Vec<String>) -> Result<Self, SceneError> {
         let origin = Origin::file(name, Arc::clone(&text));
         let assignments: Vec<Assignment> = set
             .iter()
@@ -191,39 +190,6 @@ impl SceneFile {
             set,
             raw,
         })
-    }
-
-    /// The file with other values: each assignment is `KEY=VALUE`, with a key path as
-    /// errors name it and a value as the file would have it. What is no TOML value is
-    /// taken for a text, so that quotes can be left out. A later assignment prevails.
-    /// The public fields become what the file says then, but for the name.
-    ///
-    /// ```
-    /// use carom::SceneFile;
-    ///
-    /// let file = SceneFile::builtin("superball").ok_or("no such scene")?;
-    /// let file = file.with_values(&["surface.kind=smooth", "spheres[0].radius=0.25"])?;
-    /// assert_eq!(file.build::<f64>()?.bodies.radius.of(0), 0.25);
-    /// let error = file.with_values(&["spheres[0].radus=0.25"]).unwrap_err().to_string();
-    /// assert!(error.starts_with("--set spheres[0].radus is not a key"));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// If a key leads nowhere or is unknown, or a value is of the wrong type.
-    pub fn with_values<S: AsRef<str>>(&self, assignments: &[S]) -> Result<Self, SceneError> {
-        let further = assignments.iter().map(|set| set.as_ref().to_owned());
-        let set = self.set.iter().cloned().chain(further).collect();
-        let read = Self::read(&self.path, Arc::clone(&self.text), set)?;
-        Ok(Self { name: self.name.clone(), folder: self.folder.clone(), ..read })
-    }
-
-    /// What takes the place of the text's values, as [`with_values`] was given it.
-    ///
-    /// [`with_values`]: SceneFile::with_values
-    #[must_use]
-    pub fn values(&self) -> &[String] {
-        &self.set
     }
 
     /// The built-in scene of that name, if there is one.
@@ -282,92 +248,6 @@ impl SceneFile {
             let wanted = "set `duration` at the top of the file, or --duration";
             self.origin().error("duration", Problem::missing(wanted))
         })
-    }
-
-    /// `[record]`: the frames that a run writes.
-    ///
-    /// # Errors
-    /// If `every` is no length of time.
-    pub fn record(&self) -> Result<Written, SceneError> {
-        let RawWritten { file, every } = &self.raw.record;
-        self.written("record", file.as_deref(), *every)
-    }
-
-    /// `[series]`: the time series that a run writes.
-    ///
-    /// # Errors
-    /// If `every` is no length of time.
-    pub fn series(&self) -> Result<Written, SceneError> {
-        let RawSeries { file, every, .. } = &self.raw.series;
-        self.written("series", file.as_deref(), *every)
-    }
-
-    /// `columns` of `[series]`: the names of what is in it.
-    ///
-    /// ```
-    /// use carom::SceneFile;
-    /// let file = SceneFile::parse("gas", "[series]\ncolumns = [\"time\", \"energy\"]\n")?;
-    /// assert_eq!(file.series_columns().map(<[_]>::len), Some(2));
-    /// # Ok::<(), carom::SceneError>(())
-    /// ```
-    #[must_use]
-    pub fn series_columns(&self) -> Option<&[String]> {
-        self.raw.series.columns.as_deref()
-    }
-
-    /// The error of a value that means nothing to what reads it after the scene.
-    ///
-    /// ```
-    /// use carom::SceneFile;
-    /// let file = SceneFile::parse("ball.toml", "[record]\nfile = \"ball.vtk\"\n")?;
-    /// let error = file.mistake("record.file", "\"ball.vtk\"", "it must end in .dump");
-    /// assert_eq!(
-    ///     error.to_string(),
-    ///     "ball.toml:2: record.file is \"ball.vtk\"; it must end in .dump"
-    /// );
-    /// # Ok::<(), carom::SceneError>(())
-    /// ```
-    #[must_use]
-    pub fn mistake(&self, key: &str, found: &str, wanted: &str) -> SceneError {
-        let problem = Problem::Value { found: found.to_owned(), wanted: wanted.to_owned() };
-        self.origin().error(key, problem)
-    }
-
-    fn written(
-        &self,
-        table: &str,
-        file: Option<&str>,
-        every: Option<Number>,
-    ) -> Result<Written, SceneError> {
-        let every = number(every);
-        if let Some(every) = every.filter(|every| !(every.is_finite() && *every > 0.0)) {
-            let wanted = "a time must be finite and greater than 0";
-            return Err(self.mistake(&format!("{table}.every"), &format!("{every:?}"), wanted));
-        }
-        Ok(Written { file: file.map(|file| self.folder.join(file)), every })
-    }
-
-    /// `equilibrate`: how much of a run passes before anything is measured, time; 0 by
-    /// default.
-    ///
-    /// ```
-    /// use carom::SceneFile;
-    /// assert_eq!(SceneFile::parse("gas", "equilibrate = 2")?.equilibration(10.0)?, 2.0);
-    /// assert!(SceneFile::parse("gas", "equilibrate = 2")?.equilibration(1.0).is_err());
-    /// # Ok::<(), carom::SceneError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// If it is negative, or leaves nothing of a run of this duration.
-    pub fn equilibration(&self, duration: f64) -> Result<f64, SceneError> {
-        let Some(time) = number(self.raw.equilibrate) else { return Ok(0.0) };
-        if (0.0..duration).contains(&time) {
-            return Ok(time);
-        }
-        let wanted = format!(
-            "it is a part of the duration, from 0 to below {duration:?}, before anything is measured"
-        );
-        Err(self.mistake("equilibrate", &format!("{time:?}"), &wanted))
     }
 
     /// Builds and checks the scene in a precision.
@@ -505,7 +385,7 @@ impl SceneFile {
     }
 }
 
-fn number(value: Option<Number>) -> Option<f64> {
+pub(super) fn number(value: Option<Number>) -> Option<f64> {
     value.map(|Number(value)| value)
 }
 

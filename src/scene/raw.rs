@@ -38,6 +38,8 @@ pub(super) struct RawScene {
     pub(super) record: RawWritten,
     #[serde(default)]
     pub(super) series: RawSeries,
+    #[serde(default)]
+    pub(super) snapshot: RawSnapshot,
 }
 
 impl RawScene {
@@ -73,6 +75,15 @@ pub(super) struct RawSeries {
     pub(super) file: Option<String>,
     pub(super) every: Option<Number>,
     pub(super) columns: Option<Vec<String>>,
+}
+
+/// `[snapshot]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSnapshot {
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
+    pub(super) wall: Option<Number>,
 }
 
 /// `[surface]`.

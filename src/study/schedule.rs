@@ -74,6 +74,29 @@ impl Schedule {
         }
     }
 
+    /// The same where nothing before a place is due any more.
+    #[must_use]
+    pub fn from(mut self, position: f64) -> Self {
+        let time = position * self.step.unwrap_or(1.0);
+        self.next = ((time - self.start) / self.every) as u64;
+        while self.position(self.next) < position {
+            self.next += 1;
+        }
+        self
+    }
+
+    /// How often it was due and done.
+    #[must_use]
+    pub fn done(&self) -> u64 {
+        self.next
+    }
+
+    /// The same where it was done this often before.
+    #[must_use]
+    pub fn after(self, done: u64) -> Self {
+        Self { next: done, ..self }
+    }
+
     fn position(&self, number: u64) -> f64 {
         let time = self.start + number as f64 * self.every;
         let position = match self.step {

@@ -8,6 +8,7 @@ mod files;
 mod frames;
 mod measured;
 mod series;
+mod snapshots;
 mod sound;
 mod states;
 mod streams;

@@ -11,7 +11,6 @@ use crc32fast::Hasher;
 
 use super::Frame;
 use super::figures::{kinds, quaternion};
-use super::push_bytes;
 use super::zip::Archive;
 use crate::real::Real;
 
@@ -104,7 +103,7 @@ impl<W: Write> NumPy<W> {
                 &[bodies.radius.of(index), bodies.mass.of(index)],
             ];
             for (column, value) in numbers.iter_mut().zip(values.iter().copied().flatten()) {
-                push_bytes(column, *value);
+                value.write_bits(column);
             }
             let images = frame.images.map_or([0; 3], |images| images.of(index));
             for (column, value) in whole.iter_mut().zip(images.into_iter().chain([kind as i32])) {

@@ -146,7 +146,7 @@ impl<T: Real> Element for T {
     }
 
     fn push(self, bytes: &mut Vec<u8>) {
-        super::push_bytes(bytes, self);
+        self.write_bits(bytes);
     }
 }
 
