@@ -14,13 +14,13 @@ import sys
 import tempfile
 
 SCENE = """
-duration = 40.0
+duration = DURATION
 seed = 3
 surface.kind = "rough"
 equilibrate = 2.0
-periodic = { lower = [0, 0, 0], upper = [10, 10, 10] }
+periodic = { lower = [0, 0, 0], upper = [6, 6, 6] }
 [[spheres]]
-count = 400
+count = 80
 arrangement = "random"
 radius = [0.3, 0.4]
 temperature = 1.0
@@ -71,6 +71,7 @@ if __name__ == "__main__":
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
             with open("scene.toml", "w") as file:
-                file.write(SCENE)
+                # Long enough to be killed that often.
+                file.write(SCENE.replace("DURATION", str(30.0 * int(sys.argv[2]))))
             main(program, int(sys.argv[2]), engine)
             os.chdir("/")

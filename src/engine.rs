@@ -248,8 +248,8 @@ pub enum EngineError {
     },
     /// A snapshot of another scene.
     #[error(
-        "the snapshot is not of this scene: its {0} do not fit; give the scene, engine and precision \
-         that it was taken of"
+        "the snapshot is not of this scene, by its {0}; give the scene, engine and precision that it \
+         was taken of"
     )]
     Snapshot(&'static str),
     /// The system has no threads to give.

@@ -268,10 +268,10 @@ fn another_scenes_snapshot_is_refused() {
         assert_eq!(refused(FLUID, engine, &snapshot), "");
         assert!(refused(BOX, engine, &snapshot).contains("not of this scene"), "{engine:?}");
         let other = if engine == stepped { event_driven } else { stepped };
-        assert!(refused(FLUID, other, &snapshot).contains("its engine do not fit"));
+        assert!(refused(FLUID, other, &snapshot).contains("by its engine"));
         let scene = scene_file(FLUID, engine).build::<f32>().unwrap();
         let error = World::resume(scene, Execution::default(), &snapshot).unwrap_err();
-        assert!(error.to_string().contains("precision"), "{error}");
+        assert!(error.to_string().contains("by its precision"), "{error}");
     }
     // It has room for little more than the bodies.
     let snapshot = world(FLUID, event_driven).snapshot();

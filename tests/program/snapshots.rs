@@ -180,7 +180,8 @@ mod signals {
         let mut child = program.stderr(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let is_long =
             |name: &str| fs::metadata(folder.path(name)).is_ok_and(|file| file.len() > 300_000);
-        while !is_long("cut.csv.part") && child.try_wait().unwrap().is_none() {
+        let is_under_way = || is_long("cut.csv.part") && folder.path("kept.snapshot").exists();
+        while !is_under_way() && child.try_wait().unwrap().is_none() {
             sleep(Duration::from_millis(5));
         }
         for signal in signals {
