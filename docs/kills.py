@@ -72,6 +72,6 @@ if __name__ == "__main__":
             os.chdir(folder)
             with open("scene.toml", "w") as file:
                 # Long enough to be killed that often.
-                file.write(SCENE.replace("DURATION", str(30.0 * int(sys.argv[2]))))
+                file.write(SCENE.replace("DURATION", str(80.0 * int(sys.argv[2]))))
             main(program, int(sys.argv[2]), engine)
             os.chdir("/")

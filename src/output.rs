@@ -75,6 +75,13 @@ fn push_number<T: Real>(text: &mut Vec<u8>, value: T) {
     // Formatting takes most of the time of a file of numbers, and `ryu` is several
     // times as fast as the standard library.
     let mut digits = ryu::Buffer::new();
+    // Half of the numbers in a frame are these; the other zero is not equal in its sign.
+    if value == T::ONE {
+        return text.extend_from_slice(b"1.0");
+    }
+    if value == T::ZERO && !value.to_f64().is_sign_negative() {
+        return text.extend_from_slice(b"0.0");
+    }
     match T::NAME {
         "f32" => text.extend_from_slice(digits.format(value.to_f64() as f32).as_bytes()),
         "f64" => text.extend_from_slice(digits.format(value.to_f64()).as_bytes()),

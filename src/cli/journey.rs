@@ -72,14 +72,15 @@ impl<T: Real> Journey<T> {
     /// Keeps count of the boxes that bodies move through, from now on; `counted` are those
     /// of a run that goes on.
     pub fn count_images(&mut self, world: &World<T>, counted: Option<&Vec<[i32; 3]>>) {
-        let images = self.space.map(|space| {
-            let images = Images::new(space, &world.bodies());
-            match counted.filter(|counted| counted.len() == images.counts().len()) {
-                Some(counted) => images.after(counted.clone()),
-                None => images,
-            }
-        });
-        self.images = images.map(|images| (images, 0.0));
+        let Some(space) = self.space else { return };
+        let bodies = world.bodies();
+        let images = Images::new(space, &bodies);
+        let images = match counted.filter(|counted| counted.len() == images.counts().len()) {
+            Some(counted) => images.after(counted.clone()),
+            None => images,
+        };
+        let look = self.course.after(world, images.next_look(&bodies, world.gravity()));
+        self.images = Some((images, look));
     }
 
     /// The periodic box, and the boxes that bodies have moved through.
@@ -192,7 +193,9 @@ impl<T: Real> Journey<T> {
         while self.measured.mark(length).is_some_and(|mark| mark <= position) {
             self.measured.take(world, position, || Temperature::of(bodies()));
         }
-        if let Some((images, look)) = &mut self.images {
+        let is_read = record.is_some() || series.is_some() || position >= length;
+        let images = self.images.as_mut().filter(|(_, look)| is_read || *look <= position);
+        if let Some((images, look)) = images {
             let bodies = bodies();
             images.look(bodies);
             *look = self.course.after(world, images.next_look(bodies, world.gravity()));

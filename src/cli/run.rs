@@ -125,9 +125,9 @@ fn run_in<T: Compiled>(
         snapshot.as_deref(),
         notes,
     )?;
-    // A run that is kept may be asked for them when it goes on.
-    if recording.is_some() || series.is_some() || state_format.is_some() || snapshot.is_some() {
-        journey.count_images(&world, notes.and_then(|notes| notes.images.as_ref()));
+    let counted = notes.and_then(|notes| notes.images.as_ref());
+    if recording.is_some() || series.is_some() || state_format.is_some() || counted.is_some() {
+        journey.count_images(&world, counted);
     }
     let record = recording.zip(outputs.record).map(|(recording, file)| {
         let kept = notes.and_then(|notes| notes.record.as_ref());

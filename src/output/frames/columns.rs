@@ -10,7 +10,7 @@ use std::path::Path;
 use crc32fast::Hasher;
 
 use super::Frame;
-use super::figures::{kinds, quaternion};
+use super::figures::{kinds, quaternion_of};
 use super::zip::Archive;
 use crate::real::Real;
 
@@ -99,7 +99,7 @@ impl<W: Write> NumPy<W> {
                 &bodies.position_of(index).to_array()[..],
                 &bodies.velocity_of(index).to_array(),
                 &bodies.spin_of(index).to_array(),
-                &quaternion(bodies.orientation_of(index)),
+                &quaternion_of(bodies, index),
                 &[bodies.radius.of(index), bodies.mass.of(index)],
             ];
             for (column, value) in numbers.iter_mut().zip(values.iter().copied().flatten()) {

@@ -5,7 +5,7 @@
 use std::io;
 
 use super::Frame;
-use super::figures::{bounds, kinds, quaternion};
+use super::figures::{bounds, kinds, quaternion_of};
 use super::rows::{self, numbers, whole};
 use crate::real::Real;
 
@@ -37,6 +37,6 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
         whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());
         numbers(row, bodies.spin_of(index).to_array());
-        numbers(row, quaternion(bodies.orientation_of(index)));
+        numbers(row, quaternion_of(bodies, index));
     })
 }

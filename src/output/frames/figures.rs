@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::Frame;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
 
@@ -13,6 +13,9 @@ const MOST_KINDS: usize = 64;
 /// The kind of each body, from 1 in the order in which they appear: those of one kind
 /// have one radius and one mass.
 pub fn kinds<T: Real>(bodies: &Bodies<T>) -> Vec<u32> {
+    if let (PerBody::Same(_), PerBody::Same(_)) = (&bodies.radius, &bodies.mass) {
+        return vec![1; bodies.len()];
+    }
     let mut known: HashMap<[u64; 2], u32> = HashMap::new();
     let mut kinds = Vec::with_capacity(bodies.len());
     for index in 0..bodies.len() {
@@ -46,11 +49,19 @@ pub fn bounds<T: Real>(frame: &Frame<'_, T>) -> [[T; 3]; 2] {
     corners
 }
 
+/// The orientation of a body as a unit quaternion.
+pub fn quaternion_of<T: Real>(bodies: &Bodies<T>, index: usize) -> [T; 4] {
+    match bodies.orientation {
+        None => [T::ONE, T::ZERO, T::ZERO, T::ZERO],
+        Some(_) => quaternion(bodies.orientation_of(index)),
+    }
+}
+
 /// The unit quaternion w, x, y, z of a rotation, w not negative.
 ///
 /// Of the four ways to find it, each of which divides by one component, the one by the
 /// greatest (Shepperd 1978).
-pub fn quaternion<T: Real>(rotation: Mat3<T>) -> [T; 4] {
+fn quaternion<T: Real>(rotation: Mat3<T>) -> [T; 4] {
     let m: [f64; 9] = rotation.rows().map(Real::to_f64);
     let trace = m[0] + m[4] + m[8];
     // Each is 4 q_k q_j, with the greatest q_k.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use super::super::{Listed, WholeFile};
 use super::Frame;
 use super::base64::encoded;
-use super::figures::{kinds, quaternion};
+use super::figures::{kinds, quaternion_of};
 use crate::real::Real;
 
 /// A series under way. The files of its frames are whole one by one; if the series does
@@ -111,7 +111,7 @@ fn write_points<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> 
     array(output, "v", 3, vectors(&|k| bodies.velocity_of(k).to_array()))?;
     array(output, "omega", 3, vectors(&|k| bodies.spin_of(k).to_array()))?;
     let orientation = each().flat_map(|k| {
-        let [w, x, y, z] = quaternion(bodies.orientation_of(k));
+        let [w, x, y, z] = quaternion_of(bodies, k);
         [x, y, z, w]
     });
     array(output, "Orientation", 4, orientation)?;

@@ -1,6 +1,6 @@
 //! Rows: the text of many bodies, made piece by piece on all threads.
 
-use std::io;
+use std::io::{self, Write as _};
 
 use rayon::prelude::*;
 
@@ -9,6 +9,9 @@ use crate::real::Real;
 
 /// Bodies whose text one thread makes at a time.
 const PIECE: usize = 2048;
+
+/// About the bytes of a line.
+const ROW: usize = 240;
 
 /// Pieces whose text is in memory at a time.
 const PIECES: usize = 32;
@@ -20,7 +23,7 @@ pub fn write<W: io::Write>(
     row: impl Fn(&mut Vec<u8>, usize) + Sync,
 ) -> io::Result<()> {
     let text = |first: usize| {
-        let mut text = Vec::new();
+        let mut text = Vec::with_capacity(PIECE * ROW);
         for index in first..(first + PIECE).min(count) {
             row(&mut text, index);
             // In the place of the space behind the last value.
@@ -50,7 +53,11 @@ pub fn numbers<T: Real>(text: &mut Vec<u8>, values: impl IntoIterator<Item = T>)
 /// Adds whole numbers, each with a space behind it.
 pub fn whole(text: &mut Vec<u8>, values: impl IntoIterator<Item = i64>) {
     for value in values {
-        text.extend_from_slice(value.to_string().as_bytes());
+        match u8::try_from(value) {
+            Ok(digit @ 0..10) => text.push(b'0' + digit),
+            // A buffer in memory takes everything.
+            _ => drop(write!(text, "{value}")),
+        }
         text.push(b' ');
     }
 }

@@ -3,7 +3,7 @@
 use std::io;
 
 use super::Frame;
-use super::figures::{bounds, kinds, quaternion};
+use super::figures::{bounds, kinds, quaternion_of};
 use super::rows::{self, numbers, whole};
 use crate::real::Real;
 
@@ -42,7 +42,7 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
         whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());
         numbers(row, bodies.spin_of(index).to_array());
-        let [w, x, y, z] = quaternion(bodies.orientation_of(index));
+        let [w, x, y, z] = quaternion_of(bodies, index);
         numbers(row, [x, y, z, w]);
     })
 }
