@@ -22,11 +22,14 @@ const REACH: f64 = 0.125;
 /// use carom::space::PeriodicBox;
 /// use carom::Bodies;
 ///
-/// let at = |x| Bodies::from_positions(&[[x, 1.0, 1.0]]).velocities(&[[2.0, 0.0, 0.0]]);
-/// let start = at(3.5).radius(0.5).build()?;
+/// let at = |x| {
+///     let (place, velocity) = ([[x, 1.0, 1.0]], [[2.0, 0.0, 0.0]]);
+///     Bodies::from_positions(&place).velocities(&velocity).radius(0.5).build()
+/// };
+/// let start = at(3.5)?;
 /// let mut images = Images::new(PeriodicBox::new([0.0; 3], [4.0; 3]), &start);
 /// assert_eq!(images.next_look(&start, [0.0; 3].into()), 0.25);
-/// images.look(&at(0.25).radius(0.5).build()?);
+/// images.look(&at(0.25)?);
 /// assert_eq!(images.of(0), [1, 0, 0]);
 /// # Ok::<(), carom::bodies::BodiesError>(())
 /// ```
