@@ -1,7 +1,6 @@
 //! Frames: the bodies at times of a run, in the formats of the programs that people
 //! look at trajectories with. One file a format.
 
-mod base64;
 mod columns;
 mod dump;
 mod figures;

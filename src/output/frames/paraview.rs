@@ -6,9 +6,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::super::{Listed, WholeFile};
 use super::Frame;
-use super::base64::encoded;
 use super::figures::{kinds, quaternion_of};
 use crate::real::Real;
 
@@ -169,6 +171,6 @@ fn array<W: io::Write, E: Element>(
         "      <DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
          format=\"binary\">"
     )?;
-    output.write_all(&encoded(&bytes))?;
+    output.write_all(STANDARD.encode(&bytes).as_bytes())?;
     writeln!(output, "</DataArray>")
 }
