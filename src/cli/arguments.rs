@@ -186,11 +186,11 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE")]
     pub snapshot: Option<PathBuf>,
 
-    /// Keep it also every so much of the scene's time
+    /// Keep it also at every multiple of this, in the scene's unit of time
     #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub snapshot_every: Option<f64>,
 
-    /// Keep it also every so many minutes of the clock on the wall
+    /// Keep it also each time that this many minutes of wall-clock time have passed
     #[arg(long, value_name = "MINUTES", value_parser = positive, allow_negative_numbers = true)]
     pub snapshot_wall: Option<f64>,
 

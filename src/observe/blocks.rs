@@ -23,7 +23,7 @@ const HALVINGS: u32 = 3;
 /// The least number of blocks that an error is taken from.
 const FEWEST: usize = 8;
 
-/// Standard errors by which halves have to differ to be told apart.
+/// Standard errors by which halves have to differ before a figure counts as drifting.
 const APART: f64 = 3.0;
 
 impl Statistic {

@@ -67,22 +67,23 @@ impl Schedule {
 
     /// Done at a place, and whatever else was due up to there.
     pub fn pass(&mut self, position: f64) {
-        let time = position * self.step.unwrap_or(1.0);
-        self.next = self.next.max(((time - self.start) / self.every) as u64);
-        while self.position(self.next) <= position {
-            self.next += 1;
-        }
+        self.skip(position, |due| due <= position);
     }
 
     /// The same where nothing before a place is due any more.
     #[must_use]
     pub fn from(mut self, position: f64) -> Self {
+        self.skip(position, |due| due < position);
+        self
+    }
+
+    /// Passes over what is due about a place as long as it counts as done.
+    fn skip(&mut self, position: f64, is_done: impl Fn(f64) -> bool) {
         let time = position * self.step.unwrap_or(1.0);
-        self.next = ((time - self.start) / self.every) as u64;
-        while self.position(self.next) < position {
+        self.next = self.next.max(((time - self.start) / self.every) as u64);
+        while is_done(self.position(self.next)) {
             self.next += 1;
         }
-        self
     }
 
     /// How often it was due and done.

@@ -7,7 +7,7 @@ use crate::bodies::{Bodies, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
 
-/// The most kinds that bodies are told apart by; where there are more, all are one.
+/// The most kinds of bodies that have types of their own; where there are more, all have one.
 const MOST_KINDS: usize = 64;
 
 /// The kind of each body, from 1 in the order in which they appear: those of one kind
