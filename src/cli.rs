@@ -12,6 +12,7 @@ mod measured;
 mod outlook;
 mod output_file;
 mod outputs;
+mod pace;
 mod plain;
 mod plot;
 mod progress;

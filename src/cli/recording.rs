@@ -9,13 +9,14 @@ use carom::output::{Frame, FrameFormat, FrameWriter};
 use carom::real::Real;
 use carom::scene::{EngineKind, SceneFile};
 use carom::space::PeriodicBox;
-use carom::study::{Course, Schedule};
+use carom::study::Course;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::RunArguments;
 use super::asked::{Asked, Words};
 use super::failure::Failure;
 use super::output_file::{KeptFile, OutputError, OutputFile};
+use super::pace::{KeptPace, Pace};
 
 /// What they are called.
 const WORDS: Words = Words { things: "frames", option: "--record", table: "record" };
@@ -72,16 +73,14 @@ pub fn state_format(path: &Path) -> Result<Option<FrameFormat>, Failure> {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct KeptFrames {
     pub file: Option<KeptFile>,
-    every: f64,
-    done: u64,
+    pace: KeptPace,
     frames: u64,
 }
 
 /// Frames under way.
 pub struct Recorder {
     path: PathBuf,
-    every: f64,
-    schedule: Schedule,
+    pace: Pace,
     writer: FrameWriter<OutputFile>,
     frames: u64,
 }
@@ -101,19 +100,15 @@ impl Recorder {
             Err(source) => return Err(OutputError::Write { path, source }),
         };
         let every = recording.asked.every;
-        let schedule = Schedule::new(world, course, every);
-        let kept = kept.filter(|kept| kept.every == every);
-        let schedule = match kept {
-            Some(kept) => schedule.after(kept.done),
-            None => schedule.from(Course::position(world)),
-        };
+        let pace = Pace::new(world, course, every, 0.0, kept.map(|kept| kept.pace));
+        let kept = kept.filter(|kept| kept.pace.is_every(every));
         let frames = kept.map_or(0, |kept| kept.frames);
-        Ok(Self { path, every, schedule, writer, frames })
+        Ok(Self { path, pace, writer, frames })
     }
 
     /// Where the next frame is due.
     pub fn mark(&self) -> Option<f64> {
-        self.schedule.mark()
+        self.pace.mark()
     }
 
     /// Writes the bodies down, at the place where they are due.
@@ -132,7 +127,7 @@ impl Recorder {
         let written = self.writer.write(&frame);
         written.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
         self.frames += 1;
-        self.schedule.pass(Course::position(world));
+        self.pace.pass(Course::position(world));
         Ok(())
     }
 
@@ -140,8 +135,7 @@ impl Recorder {
     pub fn keep(&mut self) -> Result<KeptFrames, OutputError> {
         let file = self.writer.flush().and_then(OutputFile::keep);
         let file = file.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
-        let (every, done) = (self.every, self.schedule.done());
-        Ok(KeptFrames { file, every, done, frames: self.frames })
+        Ok(KeptFrames { file, pace: self.pace.kept(), frames: self.frames })
     }
 
     /// The file, whole but for its final name.

@@ -7,13 +7,14 @@ use carom::observe::Sample;
 use carom::output::{SeriesColumn, SeriesWriter};
 use carom::real::Real;
 use carom::scene::SceneFile;
-use carom::study::{Course, Schedule};
+use carom::study::Course;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::RunArguments;
 use super::asked::{Asked, Words};
 use super::failure::Failure;
 use super::output_file::{KeptFile, OutputError, OutputFile};
+use super::pace::{KeptPace, Pace};
 
 /// What they are called.
 const WORDS: Words = Words { things: "rows of a series", option: "--series", table: "series" };
@@ -60,22 +61,20 @@ impl AskedSeries {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct KeptSeries {
     pub file: Option<KeptFile>,
-    every: f64,
-    done: u64,
+    pace: KeptPace,
     last: Option<Sample>,
 }
 
 /// A series under way.
 pub struct Series {
     path: PathBuf,
-    every: f64,
-    schedule: Schedule,
+    pace: Pace,
     writer: SeriesWriter<OutputFile>,
 }
 
 impl Series {
-    /// Figures of a world into an open file, from a time on, after those that were kept; `volume` is that of a periodic
-    /// box.
+    /// Figures of a world into an open file, from a time on, after those that were kept;
+    /// `volume` is that of a periodic box.
     pub fn new<T: Real>(
         series: &AskedSeries,
         file: OutputFile,
@@ -95,24 +94,20 @@ impl Series {
             Ok(writer) => writer.after(kept.and_then(|kept| kept.last)),
             Err(source) => return Err(OutputError::Write { path, source }),
         };
-        let schedule = Schedule::new(world, course, every).starting(start);
-        let schedule = match kept.filter(|kept| kept.every == every) {
-            Some(kept) => schedule.after(kept.done),
-            None => schedule.from(Course::position(world)),
-        };
-        Ok(Self { path, every, schedule, writer })
+        let pace = Pace::new(world, course, every, start, kept.map(|kept| kept.pace));
+        Ok(Self { path, pace, writer })
     }
 
     /// Where the next row is due.
     pub fn mark(&self) -> Option<f64> {
-        self.schedule.mark()
+        self.pace.mark()
     }
 
     /// Writes down what is measured, at the place where it is due.
     pub fn row(&mut self, position: f64, sample: Sample) -> Result<(), OutputError> {
         let written = self.writer.row(sample);
         written.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
-        self.schedule.pass(position);
+        self.pace.pass(position);
         Ok(())
     }
 
@@ -120,8 +115,7 @@ impl Series {
     pub fn keep(&mut self) -> Result<KeptSeries, OutputError> {
         let file = self.writer.flush().and_then(OutputFile::keep);
         let file = file.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
-        let (every, done) = (self.every, self.schedule.done());
-        Ok(KeptSeries { file, every, done, last: self.writer.last() })
+        Ok(KeptSeries { file, pace: self.pace.kept(), last: self.writer.last() })
     }
 
     /// The file, whole but for its final name.
