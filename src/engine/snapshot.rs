@@ -12,6 +12,7 @@ use super::stepped::StepState;
 use crate::bodies::Columns3;
 use crate::column::Column;
 use crate::real::Real;
+use crate::vec3::Vec3;
 
 /// The state of a world at a moment, without its scene. It is plain data for any
 /// serialiser of serde.
@@ -110,4 +111,9 @@ pub(super) fn columns3<T: Real>(
     what: &'static str,
 ) -> Result<Columns3<T>, Misfit> {
     Ok([x.column(count, what)?, y.column(count, what)?, z.column(count, what)?])
+}
+
+/// What is kept of vectors, a column for each axis.
+pub(super) fn reals3_of<T: Real>(vectors: impl Iterator<Item = Vec3<T>> + Clone) -> Reals3 {
+    core::array::from_fn(|axis| Reals::of(vectors.clone().map(|vector| vector.to_array()[axis])))
 }

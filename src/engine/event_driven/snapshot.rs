@@ -12,7 +12,7 @@ use super::period::look_ahead_of_all;
 use super::region::Region;
 use super::setting::Setting;
 use crate::engine::account::Account;
-use crate::engine::snapshot::{Misfit, Reals, Reals3};
+use crate::engine::snapshot::{Misfit, Reals, Reals3, columns3, reals3_of};
 use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -44,22 +44,17 @@ struct Turning {
 /// What is to be remembered.
 pub(super) fn save<T: Real>(region: &Region<T>, clock: &Clock<T>) -> EventState {
     let flights = || region.records.iter().map(Record::flight);
-    let vectors = |of: &dyn Fn(Flight<T>) -> Vec3<T>| -> Reals3 {
-        core::array::from_fn(|axis| Reals::of(flights().map(|flight| of(flight).to_array()[axis])))
-    };
     let (spins, turned) = (&region.spins, &region.turned);
     EventState {
         clock: clock.save(),
         is_too_fast: region.is_too_fast,
         index: region.index.clone(),
-        position: vectors(&|flight| flight.position),
-        velocity: vectors(&|flight| flight.velocity),
+        position: reals3_of(flights().map(|flight| flight.position)),
+        velocity: reals3_of(flights().map(|flight| flight.velocity)),
         since: Reals::of(flights().map(|flight| flight.since)),
         last: region.marks.iter().map(|mark| mark.last.code()).collect(),
         turning: (!turned.is_empty()).then(|| Turning {
-            spin: core::array::from_fn(|axis| {
-                Reals::of(spins.iter().map(|spin| spin.to_array()[axis]))
-            }),
+            spin: reals3_of(spins.iter().copied()),
             orientation: core::array::from_fn(|k| {
                 Reals::of(turned.iter().map(|(orientation, _)| orientation.rows()[k]))
             }),
@@ -77,8 +72,7 @@ pub(super) fn restore<T: Real>(
 ) -> Result<(), Misfit> {
     let len = region.records.len();
     let three = |columns: &Reals3, what| -> Result<Vec<Vec3<T>>, Misfit> {
-        let [x, y, z] = columns.each_ref().map(|column| column.read::<T>(len, what));
-        let (x, y, z) = (x?, y?, z?);
+        let [x, y, z] = columns3(columns, len, what)?;
         Ok((0..len).map(|slot| Vec3::new(x[slot], y[slot], z[slot])).collect())
     };
     let mut has = vec![false; len];
