@@ -77,6 +77,10 @@ fn search<L: Lane<Scalar = T>, T: Real>(
             );
         }
     }
+    for (number, near) in chunk.at_parts() {
+        let feature = (number, &setting.features[number as usize]);
+        touching_surroundings::<L, T>(state, detection, feature, near, found);
+    }
 }
 
 fn search_with<L: Lane<Scalar = T>, T: Real, R: Figure<T>>(
@@ -98,9 +102,5 @@ fn search_with<L: Lane<Scalar = T>, T: Real, R: Figure<T>>(
                 touching_pairs::<L, _, _, _, _>(state, detection, radius, space, pairs, found);
             }
         }
-    }
-    for (number, near) in chunk.at_parts() {
-        let feature = (number, &setting.features[number as usize]);
-        touching_surroundings::<L, _, _, _>(state, detection, radius, feature, near, found);
     }
 }
