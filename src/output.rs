@@ -13,7 +13,7 @@ mod whole_file;
 pub use events::{EVENT_COLUMNS, EventWriter};
 pub use state::{STATE_COLUMNS, write_state};
 #[cfg(feature = "study")]
-pub(crate) use whole_file::{Listed, Temporary};
+pub(crate) use whole_file::Listed;
 #[cfg(feature = "study")]
 pub use whole_file::{WholeFile, abandon_unfinished, write_whole};
 

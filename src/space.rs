@@ -42,5 +42,5 @@ mod tree;
 pub use near_pairs::near_pairs;
 pub use parts::FixedParts;
 pub use periodic::{OpenSpace, PeriodicBox, Space};
+pub(crate) use tree::joined;
 pub use tree::{Bounds, Tree};
-pub(crate) use tree::{grown, joined};

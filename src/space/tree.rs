@@ -192,7 +192,7 @@ fn touch<T: Real>(a: [[T; 3]; 2], b: [[T; 3]; 2]) -> bool {
 }
 
 /// A box with the room that rounding takes.
-pub(crate) fn grown<T: Real>([lower, upper]: Bounds<T>) -> Bounds<T> {
+fn grown<T: Real>([lower, upper]: Bounds<T>) -> Bounds<T> {
     let largest = |point: Vec3<T>| point.x.abs().greater(point.y.abs()).greater(point.z.abs());
     let margin = largest(lower).greater(largest(upper)) * T::EPSILON * T::whole(ROUNDING);
     let margin = Vec3::new(margin, margin, margin);

@@ -9,20 +9,17 @@ use super::candidates::{Chunk, SHELLS, shell};
 use crate::bodies::{Figure, PerBody};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
-use crate::space::{Bounds, FixedParts, Tree, grown, joined};
+use crate::space::{Bounds, FixedParts, Tree, joined};
 use crate::vec3::Vec3;
 
 /// So few fixed parts are each tested against all bodies; of more, the tree says
 /// which are near.
 pub(super) const FEW_PARTS: usize = 8;
 
-/// The tree is asked for a group of bodies that stand one after the other, if its box
-/// is at most so much wider than that of its first body. A group of its own for each
-/// body took twice the time among 32,768 parts.
-const COMPACT: i32 = 8;
-
-/// Bodies of a group.
-const GROUP: usize = 16;
+/// The tree is asked for a group of bodies at once that stand one after the other: so
+/// many at most, in a box that is at most so much wider than that of the first one.
+const GROUP: usize = 8;
+const COMPACT: i32 = 12;
 
 /// Bodies near fixed parts, part by part.
 #[derive(Debug, Default)]
@@ -82,73 +79,6 @@ pub(super) struct PartSearch<'a, T: Real, P: ?Sized> {
     pub tree: &'a Tree<T>,
 }
 
-/// The boxes of the parts near a group of bodies, in columns.
-#[derive(Debug)]
-struct Boxes<T> {
-    lower: [Vec<T>; 3],
-    upper: [Vec<T>; 3],
-    parts: Vec<u32>,
-}
-
-impl<T: Real> Boxes<T> {
-    fn new() -> Self {
-        let none = || [const { Vec::new() }; 3];
-        Self { lower: none(), upper: none(), parts: Vec::new() }
-    }
-
-    fn clear(&mut self) {
-        self.lower.iter_mut().chain(&mut self.upper).for_each(Vec::clear);
-        self.parts.clear();
-    }
-
-    fn push(&mut self, [lower, upper]: Bounds<T>, part: u32) {
-        let add = |columns: &mut [Vec<T>; 3], corner: Vec3<T>| {
-            let [x, y, z] = columns;
-            x.push(corner.x);
-            y.push(corner.y);
-            z.push(corner.z);
-        };
-        add(&mut self.lower, lower);
-        add(&mut self.upper, upper);
-        self.parts.push(part);
-    }
-
-    /// Fills the columns up to whole packs.
-    fn fill_up(&mut self, width: usize) {
-        let whole = self.parts.len().next_multiple_of(width);
-        for column in self.lower.iter_mut().chain(&mut self.upper) {
-            column.resize(whole, T::ZERO);
-        }
-    }
-
-    /// Calls `visit` with the parts whose boxes touch another one.
-    #[inline(always)]
-    fn each_near<L: Lane<Scalar = T>>(
-        &self,
-        [lower, upper]: Bounds<T>,
-        mut visit: impl FnMut(u32),
-    ) {
-        let [lower, upper] = [lower, upper].map(Vec3::<L>::splat);
-        let at = |[x, y, z]: &[Vec<T>; 3], k: usize| -> Vec3<L> {
-            Vec3::new(L::load(&x[k..]), L::load(&y[k..]), L::load(&z[k..]))
-        };
-        for (k, parts) in self.parts.chunks(L::WIDTH).enumerate() {
-            let (least, most) = (at(&self.lower, k * L::WIDTH), at(&self.upper, k * L::WIDTH));
-            let along_x = least.x.le(upper.x) & lower.x.le(most.x);
-            let along_y = least.y.le(upper.y) & lower.y.le(most.y);
-            let along_z = least.z.le(upper.z) & lower.z.le(most.z);
-            let mut bits = (along_x & along_y & along_z).bits();
-            while bits != 0 {
-                // Lanes past the end are zeros.
-                if let Some(&part) = parts.get(bits.trailing_zeros() as usize) {
-                    visit(part);
-                }
-                bits &= bits - 1;
-            }
-        }
-    }
-}
-
 impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
     /// Finds the bodies of a chunk that are near fixed parts.
     pub fn search<L: Lane<Scalar = T>>(&self, bodies: Range<usize>, chunk: &mut Chunk) {
@@ -162,19 +92,15 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             self.sweep::<L>(part, &bodies, chunk);
         }
         let mut found = Vec::new();
-        let mut boxes = Boxes::new();
         let mut rest = bodies;
         while !rest.is_empty() {
             let (group, bounds) = self.group(&rest);
             rest.start = group.end;
             for &image in self.images {
-                boxes.clear();
                 let bounds = bounds.map(|corner| corner + image);
-                self.tree.for_each_box(bounds, |bounds, part| boxes.push(bounds, part));
-                boxes.fill_up(L::WIDTH);
-                for body in group.clone() {
-                    self.test::<L>(body, image, &boxes, &mut found);
-                }
+                self.tree.for_each_box(bounds, |bounds, part| {
+                    self.test::<L>(&group, image, (part, bounds), &mut found);
+                });
             }
         }
         // Two images of a body may be near a part: the nearer one counts.
@@ -188,17 +114,13 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
     /// Tests some bodies against one part.
     #[inline(never)]
     fn sweep<L: Lane<Scalar = T>>(&self, part: u32, bodies: &Range<usize>, chunk: &mut Chunk) {
+        let Some((first, others)) = self.images.split_first() else { return };
         for start in bodies.clone().step_by(L::WIDTH) {
-            let center = Vec3::new(
-                self.position[0].load_tail::<L>(start),
-                self.position[1].load_tail(start),
-                self.position[2].load_tail(start),
-            );
-            let radius = self.radius.load_tail::<L>(start);
+            let (center, radius) = (self.centers::<L>(start), self.radius.load_tail::<L>(start));
             let gap = |image: &Vec3<T>| {
                 self.parts.gap(part as usize, center + Vec3::splat(*image), radius)
             };
-            let gap = self.images.iter().map(gap).reduce(Lane::lesser).unwrap_or(L::ZERO);
+            let gap = others.iter().fold(gap(first), |least, image| gap(image).lesser(least));
             let twice = gap + gap;
             let mut bits = twice.lt(L::splat(self.skin)).bits();
             while bits != 0 {
@@ -228,25 +150,49 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
         (bodies.start..end, all)
     }
 
-    /// Tests an image of a body against some parts.
+    /// Tests an image of some bodies against a part: those that come near its box
+    /// against the part itself.
     #[inline(always)]
     fn test<L: Lane<Scalar = T>>(
         &self,
-        body: usize,
+        bodies: &Range<usize>,
         image: Vec3<T>,
-        boxes: &Boxes<T>,
+        (part, [lower, upper]): (u32, Bounds<T>),
         found: &mut Vec<(u32, u32, u8)>,
     ) {
-        let bounds = self.bounds(body).map(|corner| corner + image);
-        boxes.each_near::<L>(bounds, |part| {
-            let center = self.center(body) + image;
-            let gap = self.parts.gap::<T>(part as usize, center, self.radius.of(body));
-            let twice = gap + gap;
-            if twice < self.skin {
-                let shell = shell(&self.shell_ends, twice);
-                found.push((part, body as u32, shell as u8));
+        let [lower, upper] = [lower - image, upper - image].map(Vec3::<L>::splat);
+        for start in bodies.clone().step_by(L::WIDTH) {
+            let center = self.centers::<L>(start);
+            let beyond = |least: L, c: L, most: L| (least - c).greater(c - most).greater(L::ZERO);
+            let offset = Vec3::new(
+                beyond(lower.x, center.x, upper.x),
+                beyond(lower.y, center.y, upper.y),
+                beyond(lower.z, center.z, upper.z),
+            );
+            let reach = self.radius.load_tail::<L>(start) + L::splat(self.reach());
+            let reach = reach * L::ratio(1025, 1024);
+            let mut bits = offset.length_squared().le(reach * reach).bits();
+            while bits != 0 {
+                let body = start + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                if body >= bodies.end {
+                    break;
+                }
+                let center = self.center(body) + image;
+                let gap = self.parts.gap::<T>(part as usize, center, self.radius.of(body));
+                let twice = gap + gap;
+                if twice < self.skin {
+                    found.push((part, body as u32, shell(&self.shell_ends, twice) as u8));
+                }
             }
-        });
+        }
+    }
+
+    /// The centres of the bodies from a slot on, zeros past the end.
+    #[inline(always)]
+    fn centers<L: Lane<Scalar = T>>(&self, start: usize) -> Vec3<L> {
+        let [x, y, z] = self.position;
+        Vec3::new(x.load_tail(start), y.load_tail(start), z.load_tail(start))
     }
 
     #[inline(always)]
@@ -255,13 +201,18 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
         Vec3::new(x[body], y[body], z[body])
     }
 
-    /// The box that a body and half of its skin fill, with room for rounding.
+    /// How far from its surface a body looks for parts.
+    #[inline(always)]
+    fn reach(&self) -> T {
+        self.skin * T::ratio(1, 2)
+    }
+
+    /// The box that a body and half of its skin fill.
     #[inline(always)]
     fn bounds(&self, body: usize) -> Bounds<T> {
-        let center = self.center(body);
-        let reach = self.radius.of(body) + self.skin * T::ratio(1, 2);
-        let reach = Vec3::new(reach, reach, reach);
-        grown([center - reach, center + reach])
+        let reach = self.radius.of(body) + self.reach();
+        let (center, reach) = (self.center(body), Vec3::new(reach, reach, reach));
+        [center - reach, center + reach]
     }
 }
 
