@@ -272,8 +272,13 @@ pub(super) fn touching_surroundings<L: Lane<Scalar = T>, T: Real>(
     found: &mut Vec<Contact<T>>,
 ) {
     let (whole, tail) = bodies.split_at(bodies.len() - bodies.len() % L::WIDTH);
-    sweep_surroundings::<L, _>(state, detection, feature, whole, found);
-    sweep_surroundings::<T, _>(state, detection, feature, tail, found);
+    // Of many parts most have few bodies.
+    if !whole.is_empty() {
+        sweep_surroundings::<L, _>(state, detection, feature, whole, found);
+    }
+    if !tail.is_empty() {
+        sweep_surroundings::<T, _>(state, detection, feature, tail, found);
+    }
 }
 
 /// Whole packs of bodies, whose radii are looked at once a pack, so that equal ones

@@ -65,6 +65,9 @@ impl AtParts {
     }
 }
 
+/// A part, a body whose image comes near its box, and the number of the image.
+type Near = (u32, u32, u32);
+
 /// A search for bodies at parts in progress. Radii and space are looked at once a
 /// body, so that they have no kernels of their own.
 pub(super) struct PartSearch<'a, T: Real, P: ?Sized> {
@@ -96,18 +99,30 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
         while !rest.is_empty() {
             let (group, bounds) = self.group(&rest);
             rest.start = group.end;
-            for &image in self.images {
+            for (number, &image) in (0..).zip(self.images) {
                 let bounds = bounds.map(|corner| corner + image);
                 self.tree.for_each_box(bounds, |bounds, part| {
-                    self.test::<L>(&group, image, (part, bounds), &mut found);
+                    self.near_box::<L>(&group, image, bounds, |body| {
+                        found.push((part, body, number));
+                    });
                 });
             }
         }
-        // Two images of a body may be near a part: the nearer one counts.
+        // Part by part, as they stand in memory.
         found.sort_unstable();
-        found.dedup_by_key(|&mut (part, body, _)| (part, body));
-        for (part, body, shell) in found {
-            chunk.at_parts[shell as usize].push(part, body);
+        for images in found.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (part, body, _) = images[0];
+            let slot = body as usize;
+            let (center, radius) = (self.center(slot), self.radius.of(slot));
+            let gap = |&(_, _, image): &Near| {
+                self.parts.gap::<T>(part as usize, center + self.images[image as usize], radius)
+            };
+            let gap =
+                images[1..].iter().fold(gap(&images[0]), |least, image| gap(image).lesser(least));
+            let twice = gap + gap;
+            if twice < self.skin {
+                chunk.at_parts[shell(&self.shell_ends, twice)].push(part, body);
+            }
         }
     }
 
@@ -150,15 +165,14 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
         (bodies.start..end, all)
     }
 
-    /// Tests an image of some bodies against a part: those that come near its box
-    /// against the part itself.
+    /// Calls `visit` with those of some bodies an image of which comes near a box.
     #[inline(always)]
-    fn test<L: Lane<Scalar = T>>(
+    fn near_box<L: Lane<Scalar = T>>(
         &self,
         bodies: &Range<usize>,
         image: Vec3<T>,
-        (part, [lower, upper]): (u32, Bounds<T>),
-        found: &mut Vec<(u32, u32, u8)>,
+        [lower, upper]: Bounds<T>,
+        mut visit: impl FnMut(u32),
     ) {
         let [lower, upper] = [lower - image, upper - image].map(Vec3::<L>::splat);
         for start in bodies.clone().step_by(L::WIDTH) {
@@ -173,17 +187,11 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             let reach = reach * L::ratio(1025, 1024);
             let mut bits = offset.length_squared().le(reach * reach).bits();
             while bits != 0 {
-                let body = start + bits.trailing_zeros() as usize;
+                let body = start as u32 + bits.trailing_zeros();
+                if (body as usize) < bodies.end {
+                    visit(body);
+                }
                 bits &= bits - 1;
-                if body >= bodies.end {
-                    break;
-                }
-                let center = self.center(body) + image;
-                let gap = self.parts.gap::<T>(part as usize, center, self.radius.of(body));
-                let twice = gap + gap;
-                if twice < self.skin {
-                    found.push((part, body as u32, shell(&self.shell_ends, twice) as u8));
-                }
             }
         }
     }
