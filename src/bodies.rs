@@ -181,6 +181,33 @@ impl<T: Real> Figure<T> for &[T] {
     }
 }
 
+/// Looked at once a pack, for sweeps that need not be compiled for both kinds.
+impl<T: Real> Figure<T> for &PerBody<T> {
+    #[inline(always)]
+    fn gather<L: Lane<Scalar = T>>(self, indices: &[u32]) -> L {
+        match self {
+            PerBody::Same(value) => L::splat(*value),
+            PerBody::Each(column) => L::gather(column, indices),
+        }
+    }
+
+    #[inline(always)]
+    fn load<L: Lane<Scalar = T>>(self, index: usize) -> L {
+        match self {
+            PerBody::Same(value) => L::splat(*value),
+            PerBody::Each(column) => column.padded().load(index),
+        }
+    }
+
+    #[inline(always)]
+    fn load_tail<L: Lane<Scalar = T>>(self, index: usize) -> L {
+        match self {
+            PerBody::Same(value) => L::splat(*value),
+            PerBody::Each(column) => column.padded().load_tail(index),
+        }
+    }
+}
+
 /// All spheres of a scene, in struct-of-arrays form, in the order of the scene
 /// file.
 ///

@@ -21,7 +21,7 @@ pub use sealed::{Unsealed, sealed, unsealed};
 pub use series::{SeriesColumn, SeriesWriter};
 pub use state::{STATE_COLUMNS, write_state};
 #[cfg(feature = "study")]
-pub(crate) use whole_file::{Listed, Temporary};
+pub(crate) use whole_file::Listed;
 #[cfg(feature = "study")]
 pub use whole_file::{WholeFile, abandon_unfinished, write_whole};
 

@@ -11,7 +11,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::StudyError;
 use super::folder::{Folder, write};
-use crate::output::Temporary;
 use axis::Divided;
 
 pub use axis::{Axis, Scale};
@@ -56,6 +55,18 @@ pub struct Chart {
     pub y: Axis,
     /// From the back to the front.
     pub series: Vec<Series>,
+}
+
+/// The file of a picture of three bytes a pixel, row by row.
+fn png(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut file = encoder.write_header()?;
+    file.write_image_data(pixels)?;
+    file.finish()?;
+    Ok(bytes)
 }
 
 /// Charts side by side; more than three stand in rows of two.
@@ -107,12 +118,11 @@ impl Picture {
         write(&path, text.as_bytes())?;
 
         let path = folder.join(format!("{name}.png"));
-        // The back end draws into a file, whose name says in which format.
-        let file = Temporary::new(folder, ".png");
-        let file = file.map_err(|error| failed(&path, error.to_string()))?;
-        self.draw(&BitMapBackend::new(file.path(), self.size()).into_drawing_area())
+        let size = self.size();
+        let mut pixels = vec![0; 3 * size.0 as usize * size.1 as usize];
+        self.draw(&BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area())
             .map_err(|reason| failed(&path, reason))?;
-        let bytes = std::fs::read(file.path()).map_err(|error| failed(&path, error.to_string()))?;
+        let bytes = png(&pixels, size).map_err(|error| failed(&path, error.to_string()))?;
         write(&path, &bytes)
     }
 

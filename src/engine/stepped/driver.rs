@@ -85,11 +85,10 @@ fn take_step<T: Real>(
     account: &mut Account,
     record: Option<&mut Record<T>>,
 ) {
-    let lanes = setting.plan.sweep_lanes;
-    let travel = in_lanes!(sweep lanes, fly::<T>(setting, &mut region.state));
+    let travel = fly(setting, &mut region.state);
     clock.steps += 1;
     if setting.plan.turning == Turning::EachStep {
-        in_lanes!(sweep lanes, rotate::<T>(setting, &mut region.state));
+        rotate(setting, &mut region.state);
     }
     region.state.keep_count(clock.steps, setting.dt);
     if !setting.has_contacts() {
