@@ -52,7 +52,7 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let mut setup = Setup::of(&scene);
     let gas = scene.periodic.and_then(|_| Temperature::of(&scene.bodies));
     let gas = gas.map(|temperature| (temperature, scene.surface));
-    let (gravity, fall) = (scene.gravity, fall_energy(&scene));
+    let fall = fall_energy(&scene);
     let shapes = scene.surroundings.clone();
     let mut world = World::new(scene, arguments.scene.execution())?;
     let mut journey = Journey::new(&world, duration, gas);
@@ -66,8 +66,8 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
         .travel(&mut world, outputs.events)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
+    let after = world.totals();
     let bodies = world.bodies();
-    let after = Totals::of(&bodies, gravity);
     let not_finite = not_finite(&bodies).map(|found| found.to_string());
     let total = || "the energy or a momentum of all bodies is no longer finite".to_owned();
     let (time, engine) = (world.time(), setup.engine);

@@ -266,6 +266,13 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
         self.frame.leave(self.engine.bodies())
     }
 
+    fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        let Frame { origin, length, time, mass } = self.frame;
+        let is_finer = T::EPSILON.to_f64() > f64::EPSILON && origin != Vec3::ZERO;
+        let frame = Frame { origin: origin.cast::<f64>(), length, time, mass };
+        is_finer.then(|| frame.leave(self.engine.bodies().cast()))
+    }
+
     fn bytes(&self) -> usize {
         self.engine.bytes()
     }

@@ -28,6 +28,12 @@ pub trait Engine<T: Real>: Debug + Send + Sync {
     /// The bodies now, in the scene's order.
     fn bodies(&self) -> Bodies<T>;
 
+    /// The same in double precision, where the engine knows places to more digits than
+    /// the scene's precision has from the scene's origin.
+    fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        None
+    }
+
     /// The bytes of memory that it holds.
     fn bytes(&self) -> usize;
 }

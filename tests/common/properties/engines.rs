@@ -1,0 +1,236 @@
+//! Engines: a small scene of ordinary sizes moves as elastic spheres do, with the same
+//! bits on every path, in either precision, whatever its units and its origin.
+
+use carom::contact::Surface;
+use carom::engine::{Compiled, EngineError, Event, EventDriven, Execution, Lanes, Stepped};
+use carom::motion::Integrator;
+use carom::observe::state_hash;
+use carom::real::Real;
+use carom::scene::{Impact, OrientationUpdate, Scene, SceneBuilder, Sphere, Summation};
+use carom::space::PeriodicBox;
+use carom::surroundings::{Cuboid, FixedSphere, Plane};
+
+use super::Outcome;
+use super::draws::Draws;
+use super::invariants::{Run, check};
+
+/// Cells along an edge of the lattice in which the bodies start, one in each.
+const EDGE: usize = 3;
+
+/// Collisions of a run.
+const MOST_EVENTS: u64 = 100;
+
+const LANES: [Lanes; 4] = [Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Sixteen];
+
+/// Powers of ten that units are multiplied by.
+const UNITS: [i32; 8] = [0, 0, 0, 0, -3, 5, -12, 12];
+
+/// A scene in the making, in units of its own: about 1 apart, at speeds of about 1.
+struct Described<T: Real> {
+    builder: SceneBuilder<T>,
+    /// The scene's unit of time.
+    time: f64,
+    /// Where bodies may come to rest, or hop along a wall: time may stand still.
+    may_stand_still: bool,
+}
+
+/// Bytes as a scene, moved event by event.
+pub fn event_driven(bytes: &[u8]) -> Outcome {
+    let mut draws = Draws::new(bytes);
+    if draws.flag() { events::<f32>(&mut draws) } else { events::<f64>(&mut draws) }
+}
+
+/// Bytes as a scene, moved in steps.
+pub fn stepped(bytes: &[u8]) -> Outcome {
+    let mut draws = Draws::new(bytes);
+    if draws.flag() { steps::<f32>(&mut draws) } else { steps::<f64>(&mut draws) }
+}
+
+fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
+    let duration = 6.0 * draws.share();
+    let (lanes, part) = (draws.pick(&LANES), draws.share());
+    let described = describe::<T>(draws);
+    let duration = duration * described.time;
+    let Ok(scene) = described.builder.build() else { return Outcome::Refused };
+
+    let (found, end) = story(&scene, Lanes::Auto, &[duration]);
+    check(&scene, &found);
+    let is_stopped = match end {
+        Ok(()) => false,
+        Err(EngineError::Stalled { .. }) if described.may_stand_still => true,
+        Err(error) => panic!("{error}"),
+    };
+    // In other lanes, and with a stop on the way, it is the same.
+    let (same, other_end) = story(&scene, lanes, &[found.time * part, found.time]);
+    assert_eq!(other_end.is_err(), is_stopped && found.time > 0.0);
+    check_same(&found, &same);
+    if is_stopped { Outcome::Stopped } else { Outcome::Ran }
+}
+
+/// All events up to the last of some times, or up to the time of the last of so many.
+fn story<T: Compiled>(
+    scene: &Scene<T>,
+    lanes: Lanes,
+    times: &[f64],
+) -> (Run<T>, Result<(), EngineError>) {
+    let execution = Execution::new().lanes(lanes).threads(1);
+    let mut world = EventDriven::with_execution(scene.clone(), execution).unwrap();
+    let mut events = Vec::new();
+    let mut end = Ok(());
+    let mut listener = |event: &Event<T>| events.push(*event);
+    for &time in times {
+        end = world.advance_to(time, MOST_EVENTS, Some(&mut listener)).and_then(|is_there| {
+            // All that happens at the time of the last one.
+            let now = if is_there { time } else { world.time() };
+            world.advance_to(now, u64::MAX, Some(&mut listener)).map(|_| ())
+        });
+        if end.is_err() {
+            break;
+        }
+    }
+    let run = Run {
+        time: world.time(),
+        steps: 0,
+        events,
+        impulse_from_surroundings: world.impulse_from_surroundings(),
+        bodies: world.bodies(),
+    };
+    (run, end)
+}
+
+fn steps<T: Compiled>(draws: &mut Draws) -> Outcome {
+    let dt = [0.002, 0.02, 0.1, 0.5][usize::from(draws.below(4))] * (draws.share() + 0.1);
+    let steps = 1 + u64::from(draws.below(48));
+    let (lanes, threads) = (draws.pick(&LANES), 1 + usize::from(draws.below(32) == 0));
+    let verlet = Integrator::VelocityVerlet;
+    let others = [verlet, verlet, Integrator::SemiImplicitEuler, Integrator::ExplicitEuler];
+    let integrator = draws.pick(&others);
+    let impact = draws.pick(&[Impact::SubStep, Impact::SubStep, Impact::EndOfStep]);
+    let summation = draws.pick(&[Summation::Auto, Summation::Plain, Summation::Compensated]);
+    let update = draws.pick(&[OrientationUpdate::WhenAsked, OrientationUpdate::EachStep]);
+    let described = describe::<T>(draws);
+    let builder = described.builder.dt(dt * described.time).integrator(integrator).impact(impact);
+    let Ok(scene) = builder.summation(summation).orientation(update).build() else {
+        return Outcome::Refused;
+    };
+    let found = march(&scene, Execution::new().threads(1), &[steps]);
+    check(&scene, &found);
+    let execution = Execution::new().lanes(lanes).threads(threads);
+    check_same(&found, &march(&scene, execution, &[steps / 2, steps - steps / 2]));
+    Outcome::Ran
+}
+
+/// Steps, in parts.
+fn march<T: Compiled>(scene: &Scene<T>, execution: Execution, parts: &[u64]) -> Run<T> {
+    let mut world = Stepped::with_execution(scene.clone(), execution).unwrap();
+    let mut events = Vec::new();
+    for &steps in parts {
+        world.take_steps(steps, Some(&mut |event| events.push(*event)));
+    }
+    Run {
+        time: world.time(),
+        steps: world.steps(),
+        events,
+        impulse_from_surroundings: world.impulse_from_surroundings(),
+        bodies: world.bodies(),
+    }
+}
+
+fn check_same<T: Real>(found: &Run<T>, other: &Run<T>) {
+    assert_eq!(found.events, other.events);
+    assert_eq!((found.time, found.steps), (other.time, other.steps));
+    assert_eq!(state_hash(&found.bodies), state_hash(&other.bodies));
+    assert_eq!(found.impulse_from_surroundings, other.impulse_from_surroundings);
+}
+
+/// A few bodies, each in a cell of its own, in some space.
+fn describe<T: Real>(draws: &mut Draws) -> Described<T> {
+    let power = |exponent: i32| 10_f64.powi(exponent);
+    let (length, time) = (power(draws.pick(&UNITS)), power(draws.pick(&UNITS) / 2));
+    let far = draws.pick(&[0.0, 0.0, 0.0, 1.0, -300.0, 1e4]);
+    let at = |place: [f64; 3]| place.map(|x| (x + far) * length);
+    let speed = length / time;
+    let surface = draws.pick(&[Surface::Smooth, Surface::Rough]);
+    let mut builder = Scene::<T>::builder().surface(surface);
+    let mut may_stand_still = false;
+    if draws.below(3) == 0 {
+        let acceleration = draws.direction().map(|x| 4.0 * x * speed / time);
+        builder = builder.gravity(acceleration.map(T::from_f64));
+        may_stand_still = true;
+    }
+    builder = surroundings(builder, draws, at, length, &mut may_stand_still);
+    // Cells that are full have bodies that touch their neighbours.
+    let fill = draws.pick(&[0.5, 0.45, 0.3, 0.1]);
+    may_stand_still |= fill == 0.5;
+    let count = 1 + usize::from(draws.below(7));
+    let first = usize::from(draws.byte());
+    for k in 0..count {
+        // All cells come once: 10 has no factor in common with their number.
+        let cell = (first + 10 * k) % (EDGE * EDGE * EDGE);
+        let radius = fill * draws.pick(&[1.0, 1.0, 0.7, 0.1]);
+        let room = 0.5 - radius;
+        let cell = [cell % EDGE, cell / EDGE % EDGE, cell / (EDGE * EDGE)];
+        let moved = draws.direction();
+        let place = core::array::from_fn(|axis| cell[axis] as f64 + 0.5 + room * moved[axis]);
+        let mut velocity = draws.direction();
+        if draws.flag() {
+            // Along an axis, at a speed like others.
+            velocity =
+                core::array::from_fn(|axis| velocity[axis].signum() * f64::from(axis == k % 3));
+        }
+        let sphere = Sphere::new(at(place))
+            .radius(radius * length)
+            .velocity(velocity.map(|v| v * draws.pick(&[1.0, 1.0, 0.0, 20.0, 1e-3]) * speed))
+            .spin(draws.direction().map(|w| 3.0 * w / time))
+            .mass(draws.pick(&[1.0, 1.0, 3.0, 0.01, 1e3]))
+            .inertia_factor(draws.pick(&[0.4, 0.4, 2.0 / 3.0, 0.01]));
+        builder = builder.sphere(sphere);
+    }
+    Described { builder, time, may_stand_still }
+}
+
+/// What is around the cells.
+fn surroundings<T: Real>(
+    builder: SceneBuilder<T>,
+    draws: &mut Draws,
+    at: impl Fn([f64; 3]) -> [f64; 3],
+    length: f64,
+    may_stand_still: &mut bool,
+) -> SceneBuilder<T> {
+    let point = |place: [f64; 3]| at(place).map(T::from_f64);
+    let long = |x: f64| T::from_f64(x * length);
+    let side = EDGE as f64;
+    let (lower, upper) = (point([0.0; 3]), point([side; 3]));
+    let (middle, out) = (point([side / 2.0; 3]), draws.pick(&[0.0, 0.01, 1.0]));
+    match draws.below(9) {
+        0 | 1 => builder,
+        2 => builder.periodic(PeriodicBox::new(lower, upper)),
+        3 => builder.surroundings(Cuboid::container(lower, upper)),
+        4 => {
+            // Around the corners of the cells.
+            *may_stand_still = true;
+            let hollow = FixedSphere::container(middle, long(side * 0.867 + out));
+            builder.surroundings(hollow)
+        }
+        5 => {
+            let normal = [draws.signed() / 4.0, draws.signed() / 4.0, 1.0];
+            let below = point([side / 2.0, side / 2.0, -side / 2.0 - out]);
+            builder.surroundings(Plane::new(below, normal.map(T::from_f64)))
+        }
+        6 => {
+            let solid = FixedSphere::solid(point([side / 2.0, side / 2.0, -1.0]), long(1.0));
+            builder
+                .surroundings(Cuboid::container(point([0.0, 0.0, -2.0]), upper))
+                .surroundings(solid)
+        }
+        7 => {
+            let solid = Cuboid::solid(point([0.25, 0.25, -1.0]), point([side - 0.5, 1.0, 0.0]));
+            builder.surroundings(solid)
+        }
+        _ => {
+            let solid = FixedSphere::solid(point([side / 2.0, side / 2.0, -1.0]), long(0.8));
+            let space = PeriodicBox::new(point([0.0, 0.0, -2.0]), upper);
+            builder.periodic(space).surroundings(solid)
+        }
+    }
+}
