@@ -43,16 +43,21 @@ fn main() {
     keep_what_breaks(folder.join("artifacts").join(name));
     let start = Instant::now();
     let mut outcomes = [0_u64; 3];
+    let mut slowest = (Duration::ZERO, first);
     for number in first..first.saturating_add(count) {
         let bytes = inputs.input(number);
-        *PRESENT.lock().unwrap() = Some((bytes.clone(), number, Instant::now()));
+        let begin = Instant::now();
+        *PRESENT.lock().unwrap() = Some((bytes.clone(), number, begin));
         outcomes[property(&bytes) as usize] += 1;
+        slowest = slowest.max((begin.elapsed(), number));
     }
     let [refused, ran, stopped] = outcomes;
     println!(
         "{name}: {count} inputs from {first} on in {:.0} s: {refused} refused, {ran} ran, {stopped} \
-         stopped",
-        start.elapsed().as_secs_f64()
+         stopped; the slowest, {}, took {:.2} s",
+        start.elapsed().as_secs_f64(),
+        slowest.1,
+        slowest.0.as_secs_f64()
     );
 }
 

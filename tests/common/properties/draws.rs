@@ -37,20 +37,29 @@ const HOSTILE: [f64; 32] = [
 ];
 
 /// Bytes, read in order; zeros where they end.
-pub struct Draws<'a>(&'a [u8]);
+pub struct Draws<'a> {
+    bytes: &'a [u8],
+    /// Of 256 numbers so many are hostile.
+    hostile: u8,
+}
 
 impl<'a> Draws<'a> {
     pub fn new(bytes: &'a [u8]) -> Self {
-        Self(bytes)
+        Self { bytes, hostile: 0 }
+    }
+
+    /// Chooses how hostile the numbers after this one are.
+    pub fn choose_hostility(&mut self) {
+        self.hostile = self.pick(&[0, 2, 8, 100]);
     }
 
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.bytes.is_empty()
     }
 
     pub fn byte(&mut self) -> u8 {
-        let Some((first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
+        let Some((first, rest)) = self.bytes.split_first() else { return 0 };
+        self.bytes = rest;
         *first
     }
 
@@ -81,14 +90,15 @@ impl<'a> Draws<'a> {
         [self.signed(), self.signed(), self.signed()]
     }
 
-    /// Any number: a plain one, one of those that break things, or any bits.
+    /// Any number: a plain one, mostly, one of those that break things, or any bits.
     pub fn number(&mut self) -> f64 {
-        match self.byte() {
-            0 => 0.0,
-            1..=150 => self.signed() * 4.0,
-            151..=190 => self.pick(&HOSTILE),
-            191..=215 => -self.pick(&HOSTILE),
-            216..=245 => self.signed() * power_of_ten(self.signed()),
+        if self.byte() >= self.hostile {
+            return self.signed() * 4.0;
+        }
+        match self.below(4) {
+            0 => self.pick(&HOSTILE),
+            1 => -self.pick(&HOSTILE),
+            2 => self.signed() * power_of_ten(self.signed()),
             _ => f64::from_bits(u64::from_le_bytes([(); 8].map(|()| self.byte()))),
         }
     }
@@ -99,7 +109,8 @@ impl<'a> Draws<'a> {
 
     /// A number above 0, mostly.
     pub fn figure(&mut self) -> f64 {
-        if self.below(4) == 0 { self.number() } else { self.share() + 1e-3 }
+        let number = self.number();
+        if number.abs() <= 4.0 { number.abs() / 8.0 + 1e-3 } else { number }
     }
 }
 

@@ -30,7 +30,7 @@ struct Described<T: Real> {
     builder: SceneBuilder<T>,
     /// The scene's unit of time.
     time: f64,
-    /// Where bodies may come to rest, or hop along a wall: time may stand still.
+    /// Whether bodies may come to rest, where time stands still.
     may_stand_still: bool,
 }
 
@@ -49,10 +49,11 @@ pub fn stepped(bytes: &[u8]) -> Outcome {
 fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
     let duration = 6.0 * draws.share();
     let (lanes, part) = (draws.pick(&LANES), draws.share());
-    let described = describe::<T>(draws);
+    let described = describe::<T>(draws, false);
     let duration = duration * described.time;
     let Ok(scene) = described.builder.build() else { return Outcome::Refused };
 
+    show(&scene);
     let (found, end) = story(&scene, Lanes::Auto, &[duration]);
     check(&scene, &found);
     let is_stopped = match end {
@@ -60,11 +61,14 @@ fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
         Err(EngineError::Stalled { .. }) if described.may_stand_still => true,
         Err(error) => panic!("{error}"),
     };
+    if is_stopped {
+        return Outcome::Stopped;
+    }
     // In other lanes, and with a stop on the way, it is the same.
-    let (same, other_end) = story(&scene, lanes, &[found.time * part, found.time]);
-    assert_eq!(other_end.is_err(), is_stopped && found.time > 0.0);
+    let (same, end) = story(&scene, lanes, &[found.time * part, found.time]);
+    assert!(end.is_ok(), "{end:?}");
     check_same(&found, &same);
-    if is_stopped { Outcome::Stopped } else { Outcome::Ran }
+    Outcome::Ran
 }
 
 /// All events up to the last of some times, or up to the time of the last of so many.
@@ -108,11 +112,12 @@ fn steps<T: Compiled>(draws: &mut Draws) -> Outcome {
     let impact = draws.pick(&[Impact::SubStep, Impact::SubStep, Impact::EndOfStep]);
     let summation = draws.pick(&[Summation::Auto, Summation::Plain, Summation::Compensated]);
     let update = draws.pick(&[OrientationUpdate::WhenAsked, OrientationUpdate::EachStep]);
-    let described = describe::<T>(draws);
+    let described = describe::<T>(draws, true);
     let builder = described.builder.dt(dt * described.time).integrator(integrator).impact(impact);
     let Ok(scene) = builder.summation(summation).orientation(update).build() else {
         return Outcome::Refused;
     };
+    show(&scene);
     let found = march(&scene, Execution::new().threads(1), &[steps]);
     check(&scene, &found);
     let execution = Execution::new().lanes(lanes).threads(threads);
@@ -136,6 +141,13 @@ fn march<T: Compiled>(scene: &Scene<T>, execution: Execution, parts: &[u64]) -> 
     }
 }
 
+/// Prints a scene if the environment has `SHOW`: what an input means.
+pub(super) fn show<T: Real>(scene: &Scene<T>) {
+    if std::env::var_os("SHOW").is_some() {
+        println!("{scene:?}");
+    }
+}
+
 fn check_same<T: Real>(found: &Run<T>, other: &Run<T>) {
     assert_eq!(found.events, other.events);
     assert_eq!((found.time, found.steps), (other.time, other.steps));
@@ -143,8 +155,9 @@ fn check_same<T: Real>(found: &Run<T>, other: &Run<T>) {
     assert_eq!(found.impulse_from_surroundings, other.impulse_from_surroundings);
 }
 
-/// A few bodies, each in a cell of its own, in some space.
-fn describe<T: Real>(draws: &mut Draws) -> Described<T> {
+/// A few bodies, each in a cell of its own, in some space. `may_rest`: whether what
+/// touches may be pressed together, too.
+fn describe<T: Real>(draws: &mut Draws, may_rest: bool) -> Described<T> {
     let power = |exponent: i32| 10_f64.powi(exponent);
     let (length, time) = (power(draws.pick(&UNITS)), power(draws.pick(&UNITS) / 2));
     let far = draws.pick(&[0.0, 0.0, 0.0, 1.0, -300.0, 1e4]);
@@ -152,16 +165,16 @@ fn describe<T: Real>(draws: &mut Draws) -> Described<T> {
     let speed = length / time;
     let surface = draws.pick(&[Surface::Smooth, Surface::Rough]);
     let mut builder = Scene::<T>::builder().surface(surface);
-    let mut may_stand_still = false;
-    if draws.below(3) == 0 {
+    let may_stand_still = draws.below(3) == 0;
+    if may_stand_still {
         let acceleration = draws.direction().map(|x| 4.0 * x * speed / time);
         builder = builder.gravity(acceleration.map(T::from_f64));
-        may_stand_still = true;
     }
-    builder = surroundings(builder, draws, at, length, &mut may_stand_still);
+    builder = surroundings(builder, draws, at, length);
     // Cells that are full have bodies that touch their neighbours.
-    let fill = draws.pick(&[0.5, 0.45, 0.3, 0.1]);
-    may_stand_still |= fill == 0.5;
+    // Rough ones that touch two others can rattle between them without end.
+    let may_touch = surface == Surface::Smooth && (may_rest || !may_stand_still);
+    let fill = draws.pick(&[if may_touch { 0.5 } else { 0.49 }, 0.45, 0.3, 0.1]);
     let count = 1 + usize::from(draws.below(7));
     let first = usize::from(draws.byte());
     for k in 0..count {
@@ -195,12 +208,13 @@ fn surroundings<T: Real>(
     draws: &mut Draws,
     at: impl Fn([f64; 3]) -> [f64; 3],
     length: f64,
-    may_stand_still: &mut bool,
 ) -> SceneBuilder<T> {
     let point = |place: [f64; 3]| at(place).map(T::from_f64);
     let long = |x: f64| T::from_f64(x * length);
     let side = EDGE as f64;
-    let (lower, upper) = (point([0.0; 3]), point([side; 3]));
+    // With no room behind, a row of bodies that touch would rattle without end.
+    let room = draws.pick(&[0.01, 0.1, 1.0]);
+    let (lower, upper) = (point([0.0; 3]), point([side + room; 3]));
     let (middle, out) = (point([side / 2.0; 3]), draws.pick(&[0.0, 0.01, 1.0]));
     match draws.below(9) {
         0 | 1 => builder,
@@ -208,7 +222,6 @@ fn surroundings<T: Real>(
         3 => builder.surroundings(Cuboid::container(lower, upper)),
         4 => {
             // Around the corners of the cells.
-            *may_stand_still = true;
             let hollow = FixedSphere::container(middle, long(side * 0.867 + out));
             builder.surroundings(hollow)
         }

@@ -137,7 +137,7 @@ impl Inputs {
     fn text(&self, random: &mut Random) -> Vec<u8> {
         let given = String::from_utf8_lossy(self.pick(random)).into_owned();
         let mut lines: Vec<String> = given.lines().map(str::to_owned).collect();
-        for _ in 0..=below(random, 5) {
+        for _ in 0..=below(random, 3) {
             self.change(&mut lines, random);
         }
         let mut bytes = lines.join("\n").into_bytes();

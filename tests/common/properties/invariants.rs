@@ -63,7 +63,7 @@ pub fn check<T: Real>(scene: &Scene<T>, run: &Run<T>) {
     check_totals(scene, run, &scales);
     let is_apart = run.steps == 0 || scene.stepped.impact == Impact::SubStep;
     if is_apart {
-        check_gaps(scene, &run.bodies, &scales, run.time);
+        check_gaps(scene, run, &scales);
     }
 }
 
@@ -132,10 +132,14 @@ fn check_totals<T: Real>(scene: &Scene<T>, run: &Run<T>, scales: &Scales) {
 }
 
 /// Nothing overlaps beyond the rounding of places.
-fn check_gaps<T: Real>(scene: &Scene<T>, bodies: &Bodies<T>, scales: &Scales, time: f64) {
+fn check_gaps<T: Real>(scene: &Scene<T>, run: &Run<T>, scales: &Scales) {
+    let bodies = &run.bodies;
     let reach = |a: usize, b: usize| (bodies.radius.of(a) + bodies.radius.of(b)).to_f64();
     let radius = bodies.radius.greatest().to_f64();
-    let bound = scales.rounding * (scales.far + scales.speed * time + radius);
+    // In steps, what rests on something falls for a step and is thrown back in the next.
+    let dt = if run.steps > 0 { scene.stepped.dt.unwrap_or(0.0) } else { 0.0 };
+    let fall = scene.gravity.cast::<f64>().length() * dt * dt;
+    let bound = fall + scales.rounding * (scales.far + scales.speed * run.time + radius);
     if scene.encounters == Encounters::All {
         for b in 0..bodies.len() {
             for a in 0..b {
