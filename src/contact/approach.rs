@@ -64,8 +64,8 @@ impl<T: Real> Approach<T> {
     /// `wait` itself, unless that is too short to get on by.
     ///
     /// Where `κ = v·v + p·a > 0` presses the centre outwards, a flight that leaves the
-    /// wall at an angle `φ` takes `2 φ s/√κ`. One at `√ε/16` or less, or at none, is given
-    /// `φ = ε^⅜`: on its way it is beyond the wall by up to `2 φ² s`, and all flights after
+    /// wall at an angle `φ` takes `2 φ s/√κ`. Rounding of the place alone makes angles of
+    /// some `√ε`. One of `4 √ε` or less, or none, becomes `φ = ε^⅜`: on its way it is beyond the wall by up to `2 φ² s`, and all flights after
     /// it turn by `4 φ`. They go round slower than along the wall by `(2 φ)²/6`, which is
     /// what rounding would make of as many as there should be.
     pub(crate) fn hop(&self, wait: T) -> T {
@@ -77,7 +77,7 @@ impl<T: Real> Approach<T> {
         let eighth = T::EPSILON.sqrt().sqrt().sqrt();
         // In precisions finer than a double there would be no end of them.
         let angle = (eighth * eighth * eighth).greater(T::ratio(1, 1 << 20));
-        let least = T::EPSILON.sqrt() * T::ratio(1, 8);
+        let least = T::EPSILON.sqrt() * T::whole(8);
         if wait <= least * time { (angle + angle) * time } else { wait }
     }
 

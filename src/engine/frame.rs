@@ -146,6 +146,7 @@ impl<T: Real> Frame<T> {
                 EngineError::Stalled { time: at(time), events, body }
             }
             EngineError::TooFast { time } => EngineError::TooFast { time: at(time) },
+            EngineError::NoDuration(time) => EngineError::NoDuration(at(time)),
             other => other,
         }
     }

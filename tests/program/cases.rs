@@ -153,7 +153,7 @@ fn along_a_hollow_sphere() {
         for (precision, tolerance) in [("f64", 1e-10), ("f32", 2e-4)] {
             let precision = format!("precision = \"{precision}\"");
             let (summary, state) = run(&tangent(&precision, position, velocity), "");
-            let (sin, cos) = (1.0 / 0.9 + turned).sin_cos();
+            let (sin, cos) = (1.0_f64 / 0.9 + turned).sin_cos();
             near(state[0][1], 0.9 * cos, tolerance);
             near(state[0][2], 0.9 * sin, tolerance);
             near(summary["energy"]["relative_change"].as_f64().unwrap(), 0.0, tolerance);

@@ -11,7 +11,7 @@ use crate::compensated::CompensatedSum;
 use crate::engine::account::{Account, Effort, Totals};
 use crate::engine::interface::{Engine, EventEngine};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{EngineError, Execution, Listener};
+use crate::engine::{EngineError, Execution, LONGEST_RUN, Listener};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
@@ -53,6 +53,9 @@ impl<T: Real> EventEngine<T> for Driver<T> {
         events: u64,
         mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
+        if time > LONGEST_RUN {
+            return Err(EngineError::NoDuration(time));
+        }
         let last = self.account.collisions.total().saturating_add(events);
         loop {
             let ahead = self.clock.in_period(time);

@@ -164,7 +164,11 @@ pub(super) fn moves_a_little<T: Compiled>(scene: Scene<T>) -> Outcome {
     let mut world = EventDriven::with_execution(scene, execution).unwrap();
     match world.advance_until(16, brief) {
         Ok(events) => assert!(events <= 16),
-        Err(error @ (EngineError::Stalled { .. } | EngineError::TooFast { .. })) => {
+        Err(
+            error @ (EngineError::Stalled { .. }
+            | EngineError::TooFast { .. }
+            | EngineError::NoDuration(_)),
+        ) => {
             check_message(&error.to_string());
             return Outcome::Stopped;
         }

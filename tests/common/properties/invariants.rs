@@ -61,8 +61,11 @@ pub fn check<T: Real>(scene: &Scene<T>, run: &Run<T>) {
     let scales = Scales::of(scene, run);
     check_events(scene, run);
     check_totals(scene, run, &scales);
-    let is_apart = run.steps == 0 || scene.stepped.impact == Impact::SubStep;
-    if is_apart {
+    // With Euler's steps in a field bodies become faster and faster, and have more
+    // collisions in a step than it takes.
+    let is_fair = scene.stepped.integrator == Integrator::VelocityVerlet
+        || scene.gravity.cast::<f64>() == Vec3::ZERO;
+    if run.steps == 0 || (scene.stepped.impact == Impact::SubStep && is_fair) {
         check_gaps(scene, run, &scales);
     }
 }
