@@ -7,6 +7,9 @@ mod common;
 #[path = "common/properties/mod.rs"]
 mod properties;
 
+use std::fs;
+use std::path::Path;
+
 use carom::scene::builtin_scenes;
 use properties::{Inputs, Outcome, PROPERTIES};
 
@@ -19,6 +22,11 @@ fn tries(name: &str, count: u64, least: usize) {
     let mut outcomes = [0; 3];
     for number in 0..count {
         outcomes[property(&inputs.input(number)) as usize] += 1;
+    }
+    // What has broken a property before is among the corpus; a package has none.
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(name);
+    for entry in fs::read_dir(folder).into_iter().flatten() {
+        property(&fs::read(entry.unwrap().path()).unwrap());
     }
     println!("{name}: refused, ran, stopped: {outcomes:?}");
     assert!(outcomes[Outcome::Ran as usize] >= least, "{outcomes:?}");
