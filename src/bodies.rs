@@ -295,6 +295,33 @@ impl<T: Real> Bodies<T> {
             + self.inertia.bytes()
     }
 
+    /// The same bodies, every number the nearest of another precision.
+    pub(crate) fn cast<B: Real>(&self) -> Bodies<B> {
+        let column = |column: &Column<T>| {
+            Column::from_values(column.iter().map(|value| value.cast()), B::ZERO)
+        };
+        let figure = |figure: &PerBody<T>| match figure {
+            PerBody::Same(value) => PerBody::Same(value.cast()),
+            // What stands behind the last one is divided by.
+            PerBody::Each(values) => {
+                PerBody::Each(Column::from_values(values.iter().map(|value| value.cast()), B::ONE))
+            }
+        };
+        let columns = |columns: &Columns3<T>| columns.each_ref().map(column);
+        Bodies {
+            position: columns(&self.position),
+            velocity: columns(&self.velocity),
+            spin: columns(&self.spin),
+            orientation: self
+                .orientation
+                .as_ref()
+                .map(|rows| Box::new(rows.each_ref().map(column))),
+            radius: figure(&self.radius),
+            mass: figure(&self.mass),
+            inertia: figure(&self.inertia),
+        }
+    }
+
     /// Multiplies all velocities, of centres and angular ones, by a factor: −1
     /// turns the motion back.
     ///

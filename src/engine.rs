@@ -88,6 +88,20 @@ impl fmt::Display for Lanes {
 /// ```
 pub const MOST_THREADS: usize = 1024;
 
+/// The longest run of the event-driven engine, in its own unit of time: a million of its
+/// longest periods.
+///
+/// ```
+/// use carom::engine::LONGEST_RUN;
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]);
+/// let mut world = EventDriven::new(Scene::<f64>::builder().sphere(ball).build()?)?;
+/// assert!(world.advance(10.0 * LONGEST_RUN).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub const LONGEST_RUN: f64 = 1e30;
+
 /// On what a scene is run; it changes no bit of the result.
 ///
 /// ```
@@ -221,7 +235,10 @@ pub enum EngineError {
         dt: f64,
     },
     /// An event-driven world can't be advanced by this.
-    #[error("a world can't be advanced by {0}; give a finite duration from 0 up")]
+    #[error(
+        "a world can't be advanced by {0}; give a duration from 0 up, shorter than {longest:e}",
+        longest = LONGEST_RUN
+    )]
     NoDuration(f64),
     /// Collisions follow each other while time stands still.
     #[error(

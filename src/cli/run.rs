@@ -102,7 +102,7 @@ fn run_in<T: Compiled>(
     let volume =
         scene.periodic.map(|space| space.sides().cast::<f64>().to_array().iter().product());
     let gas = volume.filter(|_| scene.bodies.len() > 1).map(|volume| (volume, scene.surface));
-    let (gravity, fall) = (scene.gravity, fall_energy(&scene));
+    let fall = fall_energy(&scene);
     let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
     let snapshot = keeping.as_ref().map(|keeping| keeping.path.clone());
     let keeper = keeping.map(|keeping| keeping.begin(file, &scene.bodies, options(arguments)));
@@ -150,8 +150,8 @@ fn run_in<T: Compiled>(
         .travel(&mut world, on_the_way)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
+    let after = world.totals();
     let bodies = world.bodies();
-    let after = Totals::of(&bodies, gravity);
     let not_finite = not_finite(&bodies).map(|found| found.to_string());
     let total = || "the energy or a momentum of all bodies is no longer finite".to_owned();
     let (time, engine) = (world.time(), setup.engine);

@@ -277,6 +277,12 @@ impl<T: Real> EventDriven<T> {
         self.engine.bodies()
     }
 
+    /// The bodies in double precision, where their places have more digits in the
+    /// engine's own frame than in the scene's coordinates.
+    pub(crate) fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        self.engine.finer_bodies()
+    }
+
     /// Collisions since the start.
     ///
     /// ```

@@ -38,6 +38,12 @@ pub trait Engine<T: Real>: Debug + Send + Sync {
     #[cfg(feature = "files")]
     fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit>;
 
+    /// The same in double precision, where the engine knows places to more digits than
+    /// the scene's precision has from the scene's origin.
+    fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        None
+    }
+
     /// The bytes of memory that it holds.
     fn bytes(&self) -> usize;
 }

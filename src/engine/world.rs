@@ -136,6 +136,14 @@ impl<T: Real> World<T> {
         }
     }
 
+    /// As [`EventDriven::finer_bodies`].
+    pub(crate) fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        match self {
+            Self::Stepped(world) => world.finer_bodies(),
+            Self::EventDriven(world) => world.finer_bodies(),
+        }
+    }
+
     /// The uniform acceleration, length per time².
     ///
     /// ```

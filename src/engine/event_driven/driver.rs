@@ -15,7 +15,7 @@ use crate::engine::interface::{Engine, EventEngine};
 use crate::engine::plan::{Plan, Turning};
 #[cfg(feature = "files")]
 use crate::engine::snapshot::{Misfit, Snapshot, State};
-use crate::engine::{EngineError, Execution, Listener};
+use crate::engine::{EngineError, Execution, LONGEST_RUN, Listener};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
@@ -57,6 +57,9 @@ impl<T: Real> EventEngine<T> for Driver<T> {
         events: u64,
         mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
+        if time > LONGEST_RUN {
+            return Err(EngineError::NoDuration(time));
+        }
         let last = self.account.collisions.total().saturating_add(events);
         loop {
             let ahead = self.clock.in_period(time);
