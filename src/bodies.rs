@@ -181,6 +181,33 @@ impl<T: Real> Figure<T> for &[T] {
     }
 }
 
+/// Looked at once a pack, for sweeps that need not be compiled for both kinds.
+impl<T: Real> Figure<T> for &PerBody<T> {
+    #[inline(always)]
+    fn gather<L: Lane<Scalar = T>>(self, indices: &[u32]) -> L {
+        match self {
+            PerBody::Same(value) => L::splat(*value),
+            PerBody::Each(column) => L::gather(column, indices),
+        }
+    }
+
+    #[inline(always)]
+    fn load<L: Lane<Scalar = T>>(self, index: usize) -> L {
+        match self {
+            PerBody::Same(value) => L::splat(*value),
+            PerBody::Each(column) => column.padded().load(index),
+        }
+    }
+
+    #[inline(always)]
+    fn load_tail<L: Lane<Scalar = T>>(self, index: usize) -> L {
+        match self {
+            PerBody::Same(value) => L::splat(*value),
+            PerBody::Each(column) => column.padded().load_tail(index),
+        }
+    }
+}
+
 /// All spheres of a scene, in struct-of-arrays form, in the order of the scene
 /// file.
 ///
@@ -266,6 +293,33 @@ impl<T: Real> Bodies<T> {
             + self.radius.bytes()
             + self.mass.bytes()
             + self.inertia.bytes()
+    }
+
+    /// The same bodies, every number the nearest of another precision.
+    pub(crate) fn cast<B: Real>(&self) -> Bodies<B> {
+        let column = |column: &Column<T>| {
+            Column::from_values(column.iter().map(|value| value.cast()), B::ZERO)
+        };
+        let figure = |figure: &PerBody<T>| match figure {
+            PerBody::Same(value) => PerBody::Same(value.cast()),
+            // What stands behind the last one is divided by.
+            PerBody::Each(values) => {
+                PerBody::Each(Column::from_values(values.iter().map(|value| value.cast()), B::ONE))
+            }
+        };
+        let columns = |columns: &Columns3<T>| columns.each_ref().map(column);
+        Bodies {
+            position: columns(&self.position),
+            velocity: columns(&self.velocity),
+            spin: columns(&self.spin),
+            orientation: self
+                .orientation
+                .as_ref()
+                .map(|rows| Box::new(rows.each_ref().map(column))),
+            radius: figure(&self.radius),
+            mass: figure(&self.mass),
+            inertia: figure(&self.inertia),
+        }
     }
 
     /// Multiplies all velocities, of centres and angular ones, by a factor: −1

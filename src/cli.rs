@@ -1,19 +1,26 @@
 //! The command line, from the arguments to the exit status.
 
 mod arguments;
+mod asked;
 mod closed_output;
 mod explain;
 mod failure;
 mod interrupt;
 mod journey;
+mod kept;
+mod measured;
 mod outlook;
 mod output_file;
 mod outputs;
+mod pace;
 mod plain;
+mod plot;
 mod progress;
+mod recording;
 mod run;
 mod scene_argument;
 mod scenes;
+mod series;
 mod study;
 mod summary;
 
@@ -35,6 +42,7 @@ pub fn main() -> ExitCode {
             Some(Command::Run(arguments)) => run::run(&arguments),
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
             Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+            Some(Command::Plot(arguments)) => plot::plot(&arguments),
             Some(Command::Study { study }) => study.run(),
         },
         Err(answer) => return answered(&answer),
@@ -72,6 +80,10 @@ fn answered(answer: &clap::Error) -> ExitCode {
 fn failed(failure: &Failure) -> ExitCode {
     if failure.is_closed_pipe() {
         return ExitCode::SUCCESS;
+    }
+    if let Failure::Kept { words, .. } = failure {
+        let _ = writeln!(io::stderr(), "\n{}", plain(words));
+        return ExitCode::from(failure.exit_status());
     }
     // No message can be written when standard error is closed too.
     let _ = writeln!(io::stderr(), "error: {}", plain(&failure.to_string()));

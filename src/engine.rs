@@ -7,6 +7,8 @@ mod event_driven;
 mod frame;
 mod interface;
 mod plan;
+#[cfg(feature = "files")]
+mod snapshot;
 mod stepped;
 mod world;
 
@@ -20,6 +22,8 @@ pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
 pub use plan::{Plan, Turning};
+#[cfg(feature = "files")]
+pub use snapshot::Snapshot;
 pub use stepped::Stepped;
 pub use world::World;
 
@@ -128,6 +132,20 @@ impl fmt::Display for Order {
 /// ```
 pub const MOST_THREADS: usize = 1024;
 
+/// The longest run of the event-driven engine, in its own unit of time: a million of its
+/// longest periods.
+///
+/// ```
+/// use carom::engine::LONGEST_RUN;
+/// use carom::{EventDriven, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]);
+/// let mut world = EventDriven::new(Scene::<f64>::builder().sphere(ball).build()?)?;
+/// assert!(world.advance(10.0 * LONGEST_RUN).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub const LONGEST_RUN: f64 = 1e30;
+
 /// On what a scene is run; it changes no bit of the result.
 ///
 /// ```
@@ -204,7 +222,7 @@ impl Execution {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "files", derive(Serialize))]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Collisions {
     /// Between two bodies.
@@ -218,6 +236,20 @@ impl Collisions {
     #[must_use]
     pub fn total(&self) -> u64 {
         self.pairs + self.surroundings
+    }
+
+    /// Those after an earlier count.
+    ///
+    /// ```
+    /// # use carom::engine::Collisions;
+    /// assert_eq!(Collisions::default().since(Collisions::default()).total(), 0);
+    /// ```
+    #[must_use]
+    pub fn since(&self, earlier: Self) -> Self {
+        Self {
+            pairs: self.pairs - earlier.pairs,
+            surroundings: self.surroundings - earlier.surroundings,
+        }
     }
 
     /// The ends of flights: a collision of two bodies ends two.
@@ -257,7 +289,10 @@ pub enum EngineError {
         dt: f64,
     },
     /// An event-driven world can't be advanced by this.
-    #[error("a world can't be advanced by {0}; give a finite duration from 0 up")]
+    #[error(
+        "a world can't be advanced by {0}; give a duration from 0 up, shorter than {longest:e}",
+        longest = LONGEST_RUN
+    )]
     NoDuration(f64),
     /// Collisions follow each other while time stands still.
     #[error(
@@ -282,6 +317,12 @@ pub enum EngineError {
         /// Simulated time.
         time: f64,
     },
+    /// A snapshot of another scene.
+    #[error(
+        "the snapshot is not of this scene, by its {0}; give the scene, engine and precision that it \
+         was taken of"
+    )]
+    Snapshot(&'static str),
     /// The system has no threads to give.
     #[error("the threads could not be started: {0}; ask for fewer with `--threads`")]
     Threads(#[from] rayon::ThreadPoolBuildError),

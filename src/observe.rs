@@ -19,22 +19,28 @@
 //! # Ok::<(), carom::bodies::BodiesError>(())
 //! ```
 
+mod blocks;
 mod energy;
 mod fall;
 mod finite;
 mod gas;
+mod images;
 mod momentum;
 mod of_world;
+mod sample;
 mod standstill;
 #[cfg(feature = "files")]
 mod state_hash;
 mod totals;
 
+pub use blocks::Statistic;
 pub use energy::{Energy, energy_scale, integrator_drift};
 pub use fall::fall_energy;
 pub use finite::{NotFinite, Unresolved, not_finite, unresolved};
 pub use gas::{Temperature, collision_rate, compressibility};
+pub use images::Images;
 pub use momentum::{AngularMomentum, Momentum};
+pub use sample::Sample;
 pub use standstill::{Standstill, Touched};
 #[cfg(feature = "files")]
 pub use state_hash::{StateHash, state_hash};

@@ -1,24 +1,32 @@
 //! Output: what happens in a run, as files.
 //!
-//! Events and states become comma-separated values with all their digits, on
-//! anything that implements [`io::Write`]. With the feature `study` there is a
-//! [`WholeFile`] to write into, which has its name only
-//! once it is whole.
+//! Events, states and time series become comma-separated values with all their digits, on
+//! anything that implements [`io::Write`]. With the feature `study` there are frames of a
+//! trajectory in the formats of other programs ([`FrameWriter`]), and a [`WholeFile`] to
+//! write into, which has its name only once it is whole.
 
 mod events;
+#[cfg(feature = "study")]
+mod frames;
+mod sealed;
+mod series;
 mod state;
 #[cfg(feature = "study")]
 mod whole_file;
 
 pub use events::{EVENT_COLUMNS, EventWriter};
+#[cfg(feature = "study")]
+pub use frames::{Frame, FrameFormat, FrameWriter};
+pub use sealed::{Unsealed, sealed, unsealed};
+pub use series::{SeriesColumn, SeriesWriter};
 pub use state::{STATE_COLUMNS, write_state};
 #[cfg(feature = "study")]
-pub(crate) use whole_file::{Listed, Temporary};
+pub(crate) use whole_file::Listed;
 #[cfg(feature = "study")]
 pub use whole_file::{WholeFile, abandon_unfinished, write_whole};
 
-use core::fmt::{self, Write as _};
-use std::io;
+use core::fmt;
+use std::io::{self, Write as _};
 
 use crate::real::Real;
 
@@ -27,21 +35,16 @@ use crate::real::Real;
 #[derive(Debug, Default)]
 struct CsvLine {
     fields: csv::ByteRecord,
-    digits: String,
+    digits: Vec<u8>,
 }
 
 impl CsvLine {
     /// Adds numbers, one field each.
     fn numbers<T: Real>(&mut self, values: impl IntoIterator<Item = T>) {
         for value in values {
-            // Formatting takes most of the time of a state file, and `ryu` is
-            // several times as fast as the standard library.
-            let mut digits = ryu::Buffer::new();
-            match T::NAME {
-                "f32" => self.fields.push_field(digits.format(value.to_f64() as f32).as_bytes()),
-                "f64" => self.fields.push_field(digits.format(value.to_f64()).as_bytes()),
-                _ => self.shown(value),
-            }
+            self.digits.clear();
+            push_number(&mut self.digits, value);
+            self.fields.push_field(&self.digits);
         }
     }
 
@@ -49,7 +52,7 @@ impl CsvLine {
     fn shown(&mut self, value: impl fmt::Display) {
         self.digits.clear();
         let _ = write!(self.digits, "{value}");
-        self.fields.push_field(self.digits.as_bytes());
+        self.fields.push_field(&self.digits);
     }
 
     /// Adds empty fields.
@@ -64,6 +67,26 @@ impl CsvLine {
         writer.write_byte_record(&self.fields).map_err(as_io)?;
         self.fields.clear();
         Ok(())
+    }
+}
+
+/// Adds the shortest digits that read back as the same bits.
+fn push_number<T: Real>(text: &mut Vec<u8>, value: T) {
+    // Formatting takes most of the time of a file of numbers, and `ryu` is several
+    // times as fast as the standard library.
+    let mut digits = ryu::Buffer::new();
+    // Half of the numbers in a frame are these; the other zero is not equal in its sign.
+    if value == T::ONE {
+        return text.extend_from_slice(b"1.0");
+    }
+    if value == T::ZERO && !value.to_f64().is_sign_negative() {
+        return text.extend_from_slice(b"0.0");
+    }
+    match T::NAME {
+        "f32" => text.extend_from_slice(digits.format(value.to_f64() as f32).as_bytes()),
+        "f64" => text.extend_from_slice(digits.format(value.to_f64()).as_bytes()),
+        // A buffer in memory takes everything.
+        _ => drop(write!(text, "{value}")),
     }
 }
 

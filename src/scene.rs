@@ -26,6 +26,8 @@
 //! precision at the end.
 
 mod arrangement;
+#[cfg(feature = "files")]
+mod assignment;
 mod builder;
 #[cfg(feature = "files")]
 mod builtin;
@@ -46,6 +48,8 @@ mod lines;
 mod obstacles;
 mod origin;
 #[cfg(feature = "files")]
+mod outputs;
+#[cfg(feature = "files")]
 mod pieces;
 mod random;
 #[cfg(feature = "files")]
@@ -53,6 +57,8 @@ mod raw;
 #[cfg(feature = "files")]
 mod reading;
 mod settings;
+#[cfg(feature = "files")]
+mod source;
 mod spheres;
 #[cfg(feature = "files")]
 mod state_file;
@@ -64,8 +70,12 @@ pub use checked::Scene;
 pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;
+#[cfg(feature = "files")]
+pub use settings::Written;
 pub use settings::{
     Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS, OrientationUpdate, Precision,
     SteppedSettings, Summation,
 };
+#[cfg(feature = "files")]
+pub use source::SceneSource;
 pub use spheres::{Arrangement, Sphere, Spheres, Spread};

@@ -173,6 +173,19 @@ impl<T: Real> Feature<T> {
         Obstacle::contact_time(self, &flight)
     }
 
+    /// [`contact_time`](Self::contact_time) of a sphere that has just bounced off the
+    /// feature, and follows it in flights long enough to get on by.
+    pub(crate) fn hop_time(
+        &self,
+        center: Vec3<T>,
+        velocity: Vec3<T>,
+        acceleration: Option<Vec3<T>>,
+        radius: T,
+    ) -> Option<T> {
+        let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving: true };
+        Obstacle::contact_time(self, &flight).map(|wait| self.hop(&flight, wait))
+    }
+
     /// Whether it is curved towards the spheres: one that grazes it follows it in
     /// shorter and shorter flights.
     pub fn is_hollow(&self) -> bool {

@@ -48,9 +48,19 @@ impl Workers {
     pub fn each<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
         match &self.pool {
             Some(pool) if items.len() > 1 => {
-                pool.install(|| items.par_iter_mut().for_each(work));
+                let mut tasks: Vec<_> = items.iter_mut().map(|item| || work(item)).collect();
+                let mut tasks: Vec<_> = tasks.iter_mut().map(|task| task as Task).collect();
+                share(pool, &mut tasks);
             }
             _ => items.iter_mut().for_each(work),
         }
     }
+}
+
+/// The work of one item.
+type Task<'a> = &'a mut (dyn FnMut() + Send);
+
+/// Not generic: what hands out work is compiled once, not for each kind of item.
+fn share(pool: &rayon::ThreadPool, tasks: &mut [Task]) {
+    pool.install(|| tasks.par_iter_mut().for_each(|task| task()));
 }

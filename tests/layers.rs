@@ -82,12 +82,13 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 23] = [
+const SCENE: [&str; 26] = [
     "settings",
     "spheres",
     "random",
     "error",
     "lines",
+    "assignment",
     "origin",
     "description",
     "check",
@@ -105,6 +106,8 @@ const SCENE: [&str; 23] = [
     "reading",
     "state_file",
     "file",
+    "outputs",
+    "source",
     "dilated",
 ];
 

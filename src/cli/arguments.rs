@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use carom::engine::{Execution, Lanes, MOST_THREADS, Order};
+use carom::output::FrameFormat;
 use carom::scene::EngineKind;
 use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -24,6 +25,7 @@ Examples:
   carom scenes rough-gas > gas.toml     start a scene file of your own
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
+  carom plot gas.csv                    draw a time series of a run
   carom study error gas.toml            what each method costs, and its error
 
 Without a command, `carom` does what `carom run` does."
@@ -43,6 +45,12 @@ Examples:
   carom run gas.toml --engine event-driven       without steps, exactly
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
+  carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
+  carom run gas.toml --series gas.csv --series-every 0.1   figures of it in time
+  carom run gas.toml --snapshot gas.snapshot --snapshot-wall 10   keep the run
+  carom run --resume gas.snapshot --duration 20            and go on with it
+  carom run gas.toml --set spheres[0].radius=0.4 --set surface.kind=smooth
+                                                 other values of its keys
   carom run gas.toml --json | jq .energy         the summary for a program
 
 A scene takes spheres from a state file by spheres = { file = \"end.csv\" }.
@@ -68,6 +76,13 @@ Examples:
         /// The built-in scene to print.
         name: Option<String>,
     },
+    /// Draw the columns of a time series against its first one.
+    #[command(after_help = "\
+Examples:
+  carom run gas.toml --series gas.csv --series-every 0.1
+  carom plot gas.csv                    draws gas.svg
+  carom plot gas.csv -o energy.svg --columns energy,kinetic,potential")]
+    Plot(PlotArguments),
     /// Measure what methods cost and how far off they are.
     #[command(after_help = "\
 Examples:
@@ -127,6 +142,11 @@ pub struct SceneArguments {
     /// Seed of the scene's random numbers
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub seed: Option<u64>,
+
+    /// Put a value in the place of the scene file's, as spheres[0].radius=0.4 or
+    /// surface.kind=rough; can be given many times
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
 }
 
 /// What `carom run` takes.
@@ -143,9 +163,64 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE.csv")]
     pub events: Option<PathBuf>,
 
-    /// Write the final state to a file of comma-separated values
+    /// Write the final state to a file of comma-separated values, or in a format of
+    /// --record by its ending
     #[arg(long, value_name = "FILE.csv")]
     pub state: Option<PathBuf>,
+
+    #[arg(long, value_name = "FILE", help = format!(
+        "Write frames of the trajectory; the ending chooses the format: {}",
+        FrameFormat::ENDINGS
+    ))]
+    pub record: Option<PathBuf>,
+
+    /// Time from one frame to the next; the first one is the start
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub record_every: Option<f64>,
+
+    /// Write energies, momentum, temperatures, collisions, pressure and more at times to
+    /// a file of comma-separated values
+    #[arg(long, value_name = "FILE.csv")]
+    pub series: Option<PathBuf>,
+
+    /// Time from one row of --series to the next; the first one is the start
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub series_every: Option<f64>,
+
+    /// Keep the run in a file that it can go on from: at its end, on USR1, and when it
+    /// is ended by Ctrl-C, TERM or HUP
+    #[arg(long, value_name = "FILE")]
+    pub snapshot: Option<PathBuf>,
+
+    /// Keep it also at every multiple of this, in the scene's unit of time
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub snapshot_every: Option<f64>,
+
+    /// Keep it also each time that this many minutes of wall-clock time have passed
+    #[arg(long, value_name = "MINUTES", value_parser = positive, allow_negative_numbers = true)]
+    pub snapshot_wall: Option<f64>,
+
+    /// Go on from a snapshot, with the bits of a run that was never cut; --duration still
+    /// counts from the start of the first run
+    #[arg(long, value_name = "FILE",
+          conflicts_with_all = ["scene", "precision", "engine", "dt", "seed", "set"])]
+    pub resume: Option<PathBuf>,
+}
+
+/// What `carom plot` takes.
+#[derive(Args, Debug)]
+pub struct PlotArguments {
+    /// A file of comma-separated values with names in its first line, as --series writes
+    /// it
+    pub file: PathBuf,
+
+    /// The picture [default: the file's name with .svg]
+    #[arg(short, long, value_name = "FILE.svg")]
+    pub output: Option<PathBuf>,
+
+    /// Which columns to draw [default: all that have numbers]
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub columns: Vec<String>,
 }
 
 impl SceneArguments {

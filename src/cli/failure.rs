@@ -1,6 +1,7 @@
 //! Failure: why the program ends without having done what it was asked to.
 
 use std::io;
+use std::path::PathBuf;
 
 use carom::engine::EngineError;
 use carom::observe::Standstill;
@@ -55,6 +56,22 @@ pub enum Failure {
         /// How it stands, and what helps.
         why: Standstill,
     },
+    /// A snapshot that a run cannot go on from.
+    #[error("--resume: {}: {reason}", path.display())]
+    Resume {
+        /// The file.
+        path: PathBuf,
+        /// Why, and what would be right.
+        reason: String,
+    },
+    /// The run was asked to end, and has kept itself.
+    #[error("{words}")]
+    Kept {
+        /// The status that it ends with.
+        status: u8,
+        /// Where it is kept, and how to go on.
+        words: String,
+    },
     /// The motion has left the numbers.
     #[error(
         "at time {time:?} {what}; nothing was written. {}--precision f64, or units in which lengths, \
@@ -75,7 +92,8 @@ impl Failure {
     /// 2 for a mistake in the arguments or the scene, 1 for anything else.
     pub fn exit_status(&self) -> u8 {
         match self {
-            Self::Scene(_) | Self::Argument(_) | Self::Open { .. } => 2,
+            Self::Scene(_) | Self::Argument(_) | Self::Open { .. } | Self::Resume { .. } => 2,
+            Self::Kept { status, .. } => *status,
             Self::Study(error) => match error {
                 StudyError::Scene(_)
                 | StudyError::Asked(_)

@@ -1,60 +1,114 @@
 //! Journey: an engine from the start of a run to its end, with what is to be
 //! seen, written and sampled on the way.
 
+use core::cell::OnceCell;
 use core::time::Duration;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use carom::contact::Surface;
 use carom::engine::{EngineError, Event, World};
-use carom::observe::Temperature;
+use carom::observe::{Energy, Images, Sample, Temperature};
 use carom::output::EventWriter;
 use carom::real::Real;
+use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::failure::Failure;
-use super::output_file::{OutputError, OutputFile};
+use super::interrupt;
+use super::kept::{Keeper, Notes};
+use super::measured::Measured;
+use super::output_file::{KeptFile, OutputError, OutputFile};
 use super::progress::Progress;
+use super::recording::Recorder;
+use super::series::Series;
 
 /// How long the engine runs between two looks at the clock.
 const STRETCH: Duration = Duration::from_millis(50);
 
-/// A run under way.
-pub struct Journey {
-    course: Course,
-    busy: Duration,
-    /// In a periodic box, the samples for the mean temperature.
-    samples: Option<Samples>,
+/// What a run writes on its way.
+pub struct OnTheWay {
+    /// Every collision.
+    pub events: Option<Events>,
+    /// Frames.
+    pub record: Option<Recorder>,
+    /// Figures.
+    pub series: Option<Series>,
+    /// The run itself, to go on from.
+    pub keeper: Option<Keeper>,
 }
 
-impl Journey {
-    /// A run of a world over a duration. In a gas, `temperature` and `surface`
-    /// are what its mean temperature is to be made of.
-    pub fn new<T: Real>(
-        world: &World<T>,
-        duration: f64,
-        gas: Option<(Temperature, Surface)>,
+impl Drop for OnTheWay {
+    fn drop(&mut self) {
+        interrupt::keeps(false);
+    }
+}
+
+/// A run under way.
+pub struct Journey<T: Real> {
+    course: Course,
+    busy: Duration,
+    space: Option<PeriodicBox<T>>,
+    /// The energy at the start, and what bodies can fall through.
+    energy: (Energy, f64),
+    /// What the figures of the summary are taken from.
+    measured: Measured,
+    /// In a periodic box, where bodies are in the space that it stands for, if that is
+    /// written, and where to look at them next.
+    images: Option<(Images<T>, f64)>,
+}
+
+impl<T: Real> Journey<T> {
+    /// A run of a world, in a periodic box or open space, that begins with an energy and
+    /// that which bodies can fall through.
+    pub fn new(
+        course: Course,
+        space: Option<PeriodicBox<T>>,
+        energy: (Energy, f64),
+        measured: Measured,
     ) -> Self {
-        let course = Course::new(world, duration);
-        let samples = gas.map(|(first, surface)| Samples::new(first, surface));
-        Self { course, busy: Duration::ZERO, samples }
+        Self { course, busy: Duration::ZERO, space, energy, measured, images: None }
     }
 
-    /// Goes all the way, and writes the collisions to `events`, which comes back
-    /// whole but without its final name.
-    pub fn travel<T: Real>(
+    /// Keeps count of the boxes that bodies move through, from now on; `counted` are those
+    /// of a run that goes on.
+    pub fn count_images(&mut self, world: &World<T>, counted: Option<&Vec<[i32; 3]>>) {
+        let Some(space) = self.space else { return };
+        let bodies = world.bodies();
+        let images = Images::new(space, &bodies);
+        let images = match counted.filter(|counted| counted.len() == images.counts().len()) {
+            Some(counted) => images.after(counted.clone()),
+            None => images,
+        };
+        let look = self.course.after(world, images.next_look(&bodies, world.gravity()));
+        self.images = Some((images, look));
+    }
+
+    /// The periodic box, and the boxes that bodies have moved through.
+    pub fn space(&self) -> (Option<PeriodicBox<T>>, Option<&Images<T>>) {
+        (self.space, self.images.as_ref().map(|(images, _)| images))
+    }
+
+    /// Goes all the way, and writes what is to be written. The files come back whole but
+    /// without their final names.
+    pub fn travel(
         &mut self,
         world: &mut World<T>,
-        events: Option<OutputFile>,
-    ) -> Result<Option<OutputFile>, Failure> {
-        let mut progress = Progress::new(self.course);
-        let mut events = events.map(Recorder::new).transpose()?;
+        mut on_the_way: OnTheWay,
+    ) -> Result<Vec<OutputFile>, Failure> {
+        let mut progress = Progress::new(self.course, self.energy);
         let mut stretch: u64 = 1;
+        let length = self.course.length();
+        if let Some(keeper) = &mut on_the_way.keeper {
+            keeper.set_out(world, &self.course);
+            interrupt::keeps(true);
+        }
+        let start = Instant::now();
+        self.look(world, &mut on_the_way)?;
+        self.busy += start.elapsed();
         loop {
-            let length = self.course.length();
-            let mark = self.samples.as_ref().map_or(length, |samples| samples.mark(length));
+            let mark = self.mark(&on_the_way);
             let start = Instant::now();
-            let is_there = match &mut events {
+            let is_there = match &mut on_the_way.events {
                 None => self.course.advance(world, mark, stretch, None)?,
                 Some(events) => events.advance(|on_event| {
                     self.course.advance(world, mark, stretch, Some(on_event))
@@ -68,20 +122,92 @@ impl Journey {
                 stretch = (stretch / 2).max(1);
             }
             progress.show(world, self.busy);
-            if !is_there {
-                continue;
+            let start = Instant::now();
+            if is_there {
+                self.look(world, &mut on_the_way)?;
             }
-            if let Some(samples) = &mut self.samples {
-                samples.take(world);
-            }
-            if mark >= length {
+            let is_end = is_there && mark >= length;
+            self.keep(world, &mut on_the_way, is_end)?;
+            self.busy += start.elapsed();
+            if is_end {
                 break;
             }
         }
         let start = Instant::now();
-        let file = events.map(Recorder::finish).transpose()?;
+        let events = on_the_way.events.take().map(Events::finish).transpose()?;
+        let record = on_the_way.record.take().map(Recorder::finish).transpose()?;
+        let series = on_the_way.series.take().map(Series::finish).transpose()?;
         self.busy += start.elapsed();
-        Ok(file)
+        Ok([events, record, series].into_iter().flatten().collect())
+    }
+
+    /// Keeps the run at its end, where it is due, and when it is asked to end, which it
+    /// does then.
+    fn keep(
+        &mut self,
+        world: &World<T>,
+        on_the_way: &mut OnTheWay,
+        is_end: bool,
+    ) -> Result<(), Failure> {
+        let OnTheWay { events, record, series, keeper } = on_the_way;
+        let Some(keeper) = keeper else { return Ok(()) };
+        let asked = interrupt::asked_to_end().filter(|_| !is_end);
+        if !is_end && asked.is_none() && !keeper.is_due(Course::position(world)) {
+            return Ok(());
+        }
+        if let Some((images, _)) = &mut self.images {
+            images.look(&world.bodies());
+        }
+        let notes = Notes {
+            length: self.course.length(),
+            measured: self.measured.clone(),
+            images: self.images.as_ref().map(|(images, _)| images.counts().to_vec()),
+            events: events.as_mut().map(Events::keep).transpose()?.flatten(),
+            record: record.as_mut().map(Recorder::keep).transpose()?,
+            series: series.as_mut().map(Series::keep).transpose()?,
+        };
+        keeper.keep(world, notes)?;
+        asked.map_or(Ok(()), |status| Err(keeper.ended(world.time(), status)))
+    }
+
+    /// Where the bodies are to be looked at next.
+    fn mark(&self, on_the_way: &OnTheWay) -> f64 {
+        let length = self.course.length();
+        let measure = self.measured.mark(length);
+        let look = self.images.as_ref().map(|(_, look)| *look);
+        let frame = on_the_way.record.as_ref().and_then(Recorder::mark);
+        let row = on_the_way.series.as_ref().and_then(Series::mark);
+        let kept = on_the_way.keeper.as_ref().and_then(Keeper::mark);
+        [measure, look, frame, row, kept].into_iter().flatten().fold(length, f64::min)
+    }
+
+    /// Looks at the bodies, for all that is due.
+    fn look(&mut self, world: &World<T>, on_the_way: &mut OnTheWay) -> Result<(), Failure> {
+        let position = Course::position(world);
+        let length = self.course.length();
+        let OnTheWay { record, series, .. } = on_the_way;
+        let record = record.as_mut().filter(|record| record.mark() == Some(position));
+        let series = series.as_mut().filter(|series| series.mark() == Some(position));
+        let bodies = OnceCell::new();
+        let bodies = || bodies.get_or_init(|| world.bodies());
+        while self.measured.mark(length).is_some_and(|mark| mark <= position) {
+            self.measured.take(world, position, || Temperature::of(bodies()));
+        }
+        let is_read = record.is_some() || series.is_some() || position >= length;
+        let images = self.images.as_mut().filter(|(_, look)| is_read || *look <= position);
+        if let Some((images, look)) = images {
+            let bodies = bodies();
+            images.look(bodies);
+            *look = self.course.after(world, images.next_look(bodies, world.gravity()));
+        }
+        let images = self.images.as_ref().map(|(images, _)| images);
+        if let Some(record) = record {
+            record.write(world, bodies(), self.space, images)?;
+        }
+        if let Some(series) = series {
+            series.row(position, Sample::of(world, bodies(), images))?;
+        }
+        Ok(())
     }
 
     /// Seconds that the engine, and writing its collisions, took.
@@ -89,58 +215,25 @@ impl Journey {
         self.busy.as_secs_f64()
     }
 
-    /// The mean translational temperature over the run; `None` where it is
-    /// not needed.
-    pub fn mean_temperature(&self) -> Option<f64> {
-        let samples = self.samples.as_ref()?;
-        Some(samples.integral / self.course.length())
-    }
-}
-
-/// The translational temperature, sampled on the way.
-struct Samples {
-    /// Into how many spans the run is divided: a power of two, so that their
-    /// ends are exact.
-    spans: u32,
-    /// How many have passed.
-    passed: u32,
-    last_position: f64,
-    last: f64,
-    /// Temperature × position, by the trapezoidal rule.
-    integral: f64,
-}
-
-impl Samples {
-    fn new(first: Temperature, surface: Surface) -> Self {
-        // Rough contacts exchange energy between motion and spin: the ends of a
-        // run do not show what was in between.
-        let spans = if surface.changes_spins() { 32 } else { 1 };
-        Self { spans, passed: 0, last_position: 0.0, last: first.translational, integral: 0.0 }
-    }
-
-    /// Where the next sample is due.
-    fn mark(&self, length: f64) -> f64 {
-        length * f64::from(self.passed + 1) / f64::from(self.spans)
-    }
-
-    fn take<T: Real>(&mut self, world: &World<T>) {
-        let position = Course::position(world);
-        let now = Temperature::of(&world.bodies()).map_or(self.last, |now| now.translational);
-        self.integral += 0.5 * (self.last + now) * (position - self.last_position);
-        (self.last_position, self.last) = (position, now);
-        self.passed += 1;
+    /// What the figures of the summary are taken from.
+    pub fn measured(&self) -> &Measured {
+        &self.measured
     }
 }
 
 /// An events file under way.
-struct Recorder {
+pub struct Events {
     path: PathBuf,
     writer: EventWriter<OutputFile>,
 }
 
-impl Recorder {
-    fn new(file: OutputFile) -> Result<Self, OutputError> {
+impl Events {
+    /// Collisions into an open file, after those that it has.
+    pub fn new(file: OutputFile) -> Result<Self, OutputError> {
         let path = file.path().to_path_buf();
+        if file.is_begun() {
+            return Ok(Self { path, writer: EventWriter::further(file) });
+        }
         match EventWriter::new(file) {
             Ok(writer) => Ok(Self { path, writer }),
             Err(source) => Err(OutputError::Write { path, source }),
@@ -157,6 +250,12 @@ impl Recorder {
             .check()
             .map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
         Ok(result?)
+    }
+
+    /// Brings all collisions so far to the disk, and says what is to be remembered.
+    fn keep(&mut self) -> Result<Option<KeptFile>, OutputError> {
+        let kept = self.writer.flush().and_then(OutputFile::keep);
+        kept.map_err(|source| OutputError::Write { path: self.path.clone(), source })
     }
 
     fn finish(self) -> Result<OutputFile, OutputError> {

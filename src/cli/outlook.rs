@@ -3,7 +3,7 @@
 use core::time::Duration;
 use std::thread;
 
-use carom::engine::Execution;
+use carom::engine::{Execution, LONGEST_RUN};
 use carom::observe::{Energy, total_mass};
 use carom::real::Real;
 use carom::scene::{Encounters, EngineKind, MOST_STEPS, Scene};
@@ -17,10 +17,6 @@ const LEAST: f64 = 5e-11;
 
 /// A run that takes longer is refused, years.
 const MOST_YEARS: f64 = 10.0;
-
-/// The longest run of the event-driven engine, time: a million of its longest
-/// periods.
-const LONGEST: f64 = 1e30;
 
 const YEAR: f64 = 3.156e7;
 
@@ -47,9 +43,9 @@ pub fn check<T: Real>(
             }
         }
         _ => {
-            if duration > LONGEST {
+            if duration > LONGEST_RUN {
                 return Err(Failure::Argument(format!(
-                    "{}: the duration {duration:?} is longer than the {LONGEST:e} that the \
+                    "{}: the duration {duration:?} is longer than the {LONGEST_RUN:e} that the \
                      event-driven engine can count; take a shorter one (--duration), or a larger \
                      unit of time",
                     scene.name

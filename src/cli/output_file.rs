@@ -1,10 +1,12 @@
 //! Output file: one that has its name only once it is whole.
 
+use core::cell::Cell;
 use std::fs::{self, File, Metadata, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use carom::output::WholeFile;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// A file that cannot be written.
@@ -165,11 +167,110 @@ pub struct OutputFile {
 #[derive(Debug)]
 enum Output {
     Beside(WholeFile),
+    Part(Part),
     Straight(File),
     Standard(io::Stdout),
 }
 
+/// A file of a run that is kept: beside its final name as `NAME.part`, which stays when
+/// the run ends before its time.
+#[derive(Debug)]
+struct Part {
+    file: File,
+    path: PathBuf,
+    target: PathBuf,
+    /// Whether a snapshot counts on it.
+    is_kept: Cell<bool>,
+    /// Whether it was there when the run went on.
+    is_begun: bool,
+}
+
+/// What a snapshot counts on of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptFile {
+    /// The path, without links.
+    pub path: PathBuf,
+    /// The bytes that were written.
+    pub length: u64,
+}
+
+impl Part {
+    fn open(target: &Path, length: Option<u64>) -> io::Result<Self> {
+        let mut name = target.file_name().unwrap_or_default().to_owned();
+        name.push(".part");
+        let path = target.with_file_name(name);
+        let mut options = OpenOptions::new();
+        options.write(true).create(true);
+        let file = match length {
+            None => options.truncate(true).open(&path)?,
+            Some(length) => {
+                let has = |path: &Path| fs::metadata(path).is_ok_and(|file| file.len() >= length);
+                if !has(&path) {
+                    if !has(target) {
+                        let reason = format!(
+                            "it had {length} bytes when the snapshot was taken, and they are no \
+                             longer there; give another file"
+                        );
+                        return Err(io::Error::new(io::ErrorKind::NotFound, reason));
+                    }
+                    fs::copy(target, &path)?;
+                }
+                let mut file = options.truncate(false).open(&path)?;
+                file.set_len(length)?;
+                file.seek(SeekFrom::End(0))?;
+                file
+            }
+        };
+        let is_begun = length.is_some_and(|length| length > 0);
+        let is_kept = Cell::new(length.is_some());
+        Ok(Self { file, path, target: target.to_path_buf(), is_kept, is_begun })
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if !self.is_kept.get() {
+            // What cannot be removed is written over by the next run.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
 impl OutputFile {
+    /// Opens a path for a run that is kept, or that goes on from where `kept` was written.
+    /// Another file than that begins.
+    ///
+    /// # Errors
+    /// If no file can be written there, or what was there is gone.
+    pub fn open_part(path: &Path, kept: Option<&KeptFile>) -> Result<Self, OutputError> {
+        let Destination::Regular(target) = Destination::of(path)? else {
+            return Self::open(path);
+        };
+        let length = kept.filter(|kept| kept.path == target).map(|kept| kept.length);
+        let part = Part::open(&target, length)
+            .map_err(|error| OutputError::Path { path: path.into(), reason: error.to_string() })?;
+        Ok(Self { path: path.into(), output: Output::Part(part) })
+    }
+
+    /// Brings what is written to the disk, so that a snapshot can count on it, and returns
+    /// how much that is; `None` where nothing can be added later.
+    ///
+    /// # Errors
+    /// If it cannot be brought there.
+    pub fn keep(&self) -> io::Result<Option<KeptFile>> {
+        let Output::Part(part) = &self.output else { return Ok(None) };
+        part.file.sync_all()?;
+        part.is_kept.set(true);
+        let length = part.file.metadata()?.len();
+        Ok(Some(KeptFile { path: part.target.clone(), length }))
+    }
+
+    /// Whether it has the beginning of what is to be written.
+    #[must_use]
+    pub fn is_begun(&self) -> bool {
+        matches!(&self.output, Output::Part(part) if part.is_begun)
+    }
+
     /// Opens a path for writing.
     ///
     /// # Errors
@@ -212,9 +313,13 @@ impl OutputFile {
     /// If the rest cannot be written, or the name not be given.
     pub fn finish(mut self) -> Result<(), OutputError> {
         self.flush().map_err(|source| self.error(source))?;
+        let failed = |source| OutputError::Write { path: self.path.clone(), source };
         match self.output {
-            Output::Beside(file) => {
-                file.finish().map_err(|source| OutputError::Write { path: self.path, source })
+            Output::Beside(file) => file.finish().map_err(failed),
+            Output::Part(part) => {
+                part.file.sync_all().map_err(failed)?;
+                part.is_kept.set(true);
+                fs::rename(&part.path, &part.target).map_err(failed)
             }
             Output::Straight(_) | Output::Standard(_) => Ok(()),
         }
@@ -225,6 +330,7 @@ impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.output {
             Output::Beside(file) => file.write(bytes),
+            Output::Part(part) => part.file.write(bytes),
             Output::Straight(file) => file.write(bytes),
             Output::Standard(stdout) => stdout.write(bytes),
         }
@@ -233,6 +339,7 @@ impl Write for OutputFile {
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.output {
             Output::Beside(file) => file.flush(),
+            Output::Part(part) => part.file.flush(),
             Output::Straight(file) => file.flush(),
             Output::Standard(stdout) => stdout.flush(),
         }

@@ -4,39 +4,52 @@ use std::path::Path;
 
 use super::arguments::RunArguments;
 use super::failure::Failure;
-use super::output_file::{Destination, OutputError, OutputFile};
+use super::kept::Notes;
+use super::output_file::{Destination, KeptFile, OutputError, OutputFile};
 
 /// The files of a run.
 pub struct Outputs {
     pub events: Option<OutputFile>,
     pub state: Option<OutputFile>,
+    pub record: Option<OutputFile>,
+    pub series: Option<OutputFile>,
     /// Whether standard output holds one of them, and no summary.
     pub take_standard_output: bool,
 }
 
 impl Outputs {
-    /// Opens what the arguments name.
-    pub fn open(arguments: &RunArguments) -> Result<Self, Failure> {
-        let events = destination("--events", arguments.events.as_deref())?;
-        let state = destination("--state", arguments.state.as_deref())?;
-        let named = [("--events", &events), ("--state", &state)];
-        if let (Some(one), Some(other)) = (&events, &state)
-            && one == other
-            && !is_device(one)
-        {
-            return Err(Failure::Argument(
-                "--events and --state name the same file; give each its own".to_owned(),
-            ));
-        }
+    /// Opens what the arguments and the scene name.
+    pub fn open(
+        arguments: &RunArguments,
+        record: Option<&Path>,
+        series: Option<&Path>,
+        snapshot: Option<&Path>,
+        notes: Option<&Notes>,
+    ) -> Result<Self, Failure> {
+        let asked = [
+            ("--events", arguments.events.as_deref()),
+            ("--state", arguments.state.as_deref()),
+            ("--record", record),
+            ("--series", series),
+            ("--snapshot", snapshot),
+        ];
+        let mut named: Vec<(&'static str, Destination)> = Vec::new();
         let scene = arguments.scene.scene.as_deref().and_then(|path| path.canonicalize().ok());
-        for (option, destination) in named {
-            match destination {
-                Some(Destination::StandardOutput) if arguments.json => {
+        for (option, path) in asked {
+            let Some(destination) = destination(option, path)? else { continue };
+            let is_same = |(_, other): &&(_, _)| *other == destination && !is_device(other);
+            if let Some((other, _)) = named.iter().find(is_same) {
+                return Err(Failure::Argument(format!(
+                    "{other} and {option} name the same file; give each its own"
+                )));
+            }
+            match &destination {
+                Destination::StandardOutput if arguments.json => {
                     return Err(Failure::Argument(format!(
                         "{option} and --json both want standard output; give {option} a file"
                     )));
                 }
-                Some(Destination::Regular(path)) if scene.as_ref() == Some(path) => {
+                Destination::Regular(path) if scene.as_ref() == Some(path) => {
                     return Err(Failure::Argument(format!(
                         "{option} would replace the scene file {}; give it another name",
                         path.display()
@@ -44,11 +57,27 @@ impl Outputs {
                 }
                 _ => {}
             }
+            named.push((option, destination));
         }
+        let is_standard = |(_, destination): &_| *destination == Destination::StandardOutput;
+        // Of a run that is kept or goes on, what is on the disk counts.
+        let in_parts = snapshot.is_some() || notes.is_some();
+        let on_the_way = |option, path: Option<&Path>, kept: Option<&KeptFile>| {
+            if !in_parts {
+                return open(option, path);
+            }
+            let file = path.map(|path| OutputFile::open_part(path, kept)).transpose();
+            file.map_err(refused(option))
+        };
+        let kept_events = notes.and_then(|notes| notes.events.as_ref());
+        let kept_record = notes.and_then(|notes| notes.record.as_ref()?.file.as_ref());
+        let kept_series = notes.and_then(|notes| notes.series.as_ref()?.file.as_ref());
         Ok(Self {
-            events: open("--events", arguments.events.as_deref())?,
+            events: on_the_way("--events", arguments.events.as_deref(), kept_events)?,
             state: open("--state", arguments.state.as_deref())?,
-            take_standard_output: [events, state].contains(&Some(Destination::StandardOutput)),
+            record: on_the_way("--record", record, kept_record)?,
+            series: on_the_way("--series", series, kept_series)?,
+            take_standard_output: named.iter().any(is_standard),
         })
     }
 }

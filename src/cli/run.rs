@@ -3,40 +3,89 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use carom::bodies::Bodies;
 use carom::engine::{Compiled, EngineError, World};
 use carom::observe::{
     Standstill, Temperature, Totals, Unresolved, fall_energy, not_finite, state_hash, unresolved,
 };
-use carom::output::write_state;
+use carom::output::{Frame, FrameFormat, FrameWriter, write_state};
 use carom::real::Real;
-use carom::scene::{Precision, SceneFile};
+use carom::scene::{Precision, Scene, SceneFile};
+use carom::study::Course;
 use carom::surroundings::Shape;
 
 use super::arguments::RunArguments;
+use super::asked::Asked;
 use super::failure::Failure;
-use super::journey::Journey;
+use super::journey::{Events, Journey, OnTheWay};
+use super::kept::{Keeping, Kept, options};
+use super::measured::Measured;
 use super::outlook;
 use super::output_file::{OutputError, OutputFile};
 use super::outputs::Outputs;
 use super::progress::SettingUp;
+use super::recording::{Recorder, Recording, state_format};
 use super::scene_argument::scene_file;
+use super::series::{AskedSeries, Series};
 use super::summary::{Setup, Summary, Work};
 use super::{print, standard_output};
 
 /// Runs a scene and prints its summary.
 pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let file = scene_file(&arguments.scene)?;
+    let kept = arguments.resume.as_deref().map(Kept::read).transpose()?;
+    let file = match &kept {
+        None => scene_file(&arguments.scene)?,
+        Some(kept) => {
+            let mut file = SceneFile::of_source(kept.source.clone())?;
+            file.duration = arguments.scene.duration.or(file.duration);
+            file
+        }
+    };
     match file.precision {
-        Precision::F32 => run_in::<f32>(&file, arguments),
-        _ => run_in::<f64>(&file, arguments),
+        Precision::F32 => run_in::<f32>(&file, arguments, kept.as_ref()),
+        _ => run_in::<f64>(&file, arguments, kept.as_ref()),
     }
 }
 
-fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(), Failure> {
+/// A scene in motion from its start, or from where it was kept, on its way to a time.
+fn set_out<T: Compiled>(
+    scene: Scene<T>,
+    arguments: &RunArguments,
+    kept: Option<&Kept>,
+    duration: f64,
+) -> Result<(World<T>, Course), Failure> {
+    let execution = arguments.scene.execution();
+    let (Some(kept), Some(path)) = (kept, &arguments.resume) else {
+        let world = World::new(scene, execution)?;
+        let course = Course::new(&world, duration);
+        return Ok((world, course));
+    };
+    kept.check_start(&scene.bodies, path)?;
+    let refused = |reason: String| Failure::Resume { path: path.clone(), reason };
+    let world = World::resume(scene, execution, &kept.snapshot)
+        .map_err(|error| refused(error.to_string()))?;
+    let course = Course::new(&world, duration);
+    if Course::position(&world) > course.length() {
+        return Err(refused(format!(
+            "it is at time {:?}, beyond the end of the run at {duration:?}; give a longer --duration",
+            kept.time
+        )));
+    }
+    Ok((world, course))
+}
+
+fn run_in<T: Compiled>(
+    file: &SceneFile,
+    arguments: &RunArguments,
+    kept: Option<&Kept>,
+) -> Result<(), Failure> {
     let start = Instant::now();
     let setting_up = SettingUp::new();
     let duration = file.run_duration()?;
+    let equilibration = file.equilibration(duration)?;
+    let recording = Recording::of(arguments, file, duration)?;
+    let series = AskedSeries::of(arguments, file, duration)?;
+    let keeping = Keeping::of(arguments, file)?;
+    let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
     let before = Totals::of(&scene.bodies, scene.gravity);
@@ -50,24 +99,59 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     standard_output()?;
     let doubt = unresolved(&scene.bodies, duration);
     let mut setup = Setup::of(&scene);
-    let gas = scene.periodic.and_then(|_| Temperature::of(&scene.bodies));
-    let gas = gas.map(|temperature| (temperature, scene.surface));
-    let (gravity, fall) = (scene.gravity, fall_energy(&scene));
-    let shapes = scene.surroundings.clone();
-    let mut world = World::new(scene, arguments.scene.execution())?;
-    let mut journey = Journey::new(&world, duration, gas);
+    let volume =
+        scene.periodic.map(|space| space.sides().cast::<f64>().to_array().iter().product());
+    let gas = volume.filter(|_| scene.bodies.len() > 1).map(|volume| (volume, scene.surface));
+    let fall = fall_energy(&scene);
+    let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
+    let snapshot = keeping.as_ref().map(|keeping| keeping.path.clone());
+    let keeper = keeping.map(|keeping| keeping.begin(file, &scene.bodies, options(arguments)));
+    let (mut world, course) = set_out(scene, arguments, kept, duration)?;
+    let notes = kept.map(|kept| &kept.notes);
+    let measured = match notes {
+        None => Measured::new(&world, &course, equilibration, gas),
+        Some(notes) if notes.length == course.length() => notes.measured.clone(),
+        Some(notes) => notes.measured.clone().stretched(),
+    };
+    let (earlier, earlier_steps) = (world.collisions(), world.steps());
+    let mut journey = Journey::new(course, space, (before.energy, fall), measured);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
-    let outputs = Outputs::open(arguments)?;
+    let path = |asked: &Asked| asked.path.clone();
+    let outputs = Outputs::open(
+        arguments,
+        recording.as_ref().map(|recording| path(&recording.asked)).as_deref(),
+        series.as_ref().map(|series| path(&series.asked)).as_deref(),
+        snapshot.as_deref(),
+        notes,
+    )?;
+    let counted = notes.and_then(|notes| notes.images.as_ref());
+    if recording.is_some() || series.is_some() || state_format.is_some() || counted.is_some() {
+        journey.count_images(&world, counted);
+    }
+    let record = recording.zip(outputs.record).map(|(recording, file)| {
+        let kept = notes.and_then(|notes| notes.record.as_ref());
+        Recorder::new(&recording, file, &world, &course, kept)
+    });
+    let series = series.zip(outputs.series).map(|(series, file)| {
+        let kept = notes.and_then(|notes| notes.series.as_ref());
+        Series::new(&series, file, &world, &course, equilibration, volume, kept)
+    });
+    let on_the_way = OnTheWay {
+        events: outputs.events.map(Events::new).transpose()?,
+        record: record.transpose()?,
+        series: series.transpose()?,
+        keeper,
+    };
     drop(setting_up);
     let setup_seconds = start.elapsed().as_secs_f64();
 
-    let events = journey
-        .travel(&mut world, outputs.events)
+    let written = journey
+        .travel(&mut world, on_the_way)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
+    let after = world.totals();
     let bodies = world.bodies();
-    let after = Totals::of(&bodies, gravity);
     let not_finite = not_finite(&bodies).map(|found| found.to_string());
     let total = || "the energy or a momentum of all bodies is no longer finite".to_owned();
     let (time, engine) = (world.time(), setup.engine);
@@ -77,7 +161,12 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     let temperature = Temperature::of(&bodies);
     let hash = state_hash(&bodies);
     let work = Work {
-        mean_temperature: journey.mean_temperature(),
+        earlier,
+        earlier_steps,
+        measured: journey.measured().total(&world),
+        equilibration,
+        mean_temperature: journey.measured().mean_temperature(course.length()),
+        statistics: journey.measured().statistics(course.length()),
         fall,
         setup_seconds,
         engine_seconds: journey.seconds(),
@@ -91,9 +180,11 @@ fn run_in<T: Compiled>(file: &SceneFile, arguments: &RunArguments) -> Result<(),
     if let Some(doubt) = doubt.or_else(|| unresolved(&bodies, time)) {
         warn(&doubt);
     }
-    let state = outputs.state.map(|file| written(file, &bodies)).transpose()?;
-    // Both are whole before either gets its name.
-    for file in [events, state].into_iter().flatten() {
+    let (space, images) = journey.space();
+    let frame = Frame { time, step: world.steps(), bodies: &bodies, space, images };
+    let state = outputs.state.map(|file| in_format(state_format, file, &frame)).transpose()?;
+    // All are whole before one of them gets its name.
+    for file in written.into_iter().chain(state) {
         file.finish()?;
     }
     show(&summary, arguments.json, outputs.take_standard_output)
@@ -123,9 +214,22 @@ fn explained<T: Real>(failure: Failure, world: &World<T>, shapes: &[Shape<T>]) -
 }
 
 /// A state file with the state in it.
-fn written<T: Real>(mut file: OutputFile, bodies: &Bodies<T>) -> Result<OutputFile, Failure> {
-    write_state(&mut file, bodies).map_err(|error| file.error(error))?;
-    Ok(file)
+fn in_format<T: Real>(
+    format: Option<FrameFormat>,
+    mut file: OutputFile,
+    frame: &Frame<'_, T>,
+) -> Result<OutputFile, Failure> {
+    let Some(format) = format else {
+        write_state(&mut file, frame.bodies).map_err(|error| file.error(error))?;
+        return Ok(file);
+    };
+    let path = file.path().to_path_buf();
+    let write = || {
+        let mut writer = FrameWriter::new(format, &path, file)?;
+        writer.write(frame)?;
+        writer.finish()
+    };
+    Ok(write().map_err(|source| OutputError::Write { path: path.clone(), source })?)
 }
 
 /// Prints the summary; for a person on standard error where standard output

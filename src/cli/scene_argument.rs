@@ -21,6 +21,9 @@ pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
         }
         Some(name) => builtin(&name.to_string_lossy())?,
     };
+    if !arguments.set.is_empty() {
+        file = file.with_values(&arguments.set)?;
+    }
     if let Some(engine) = arguments.engine {
         file.engine = engine;
     } else if arguments.dt.is_some() && !file.names_engine() {

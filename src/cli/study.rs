@@ -108,6 +108,11 @@ pub struct StudiedScene {
     /// Seed of the scene's random numbers
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub seed: Option<u64>,
+
+    /// Put a value in the place of the scene file's, as spheres[0].radius=0.4 or
+    /// surface.kind=rough; can be given many times
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
 }
 
 impl StudiedScene {
@@ -117,6 +122,7 @@ impl StudiedScene {
             scene: Some(self.scene.clone()),
             duration: self.duration,
             seed: self.seed,
+            set: self.set.clone(),
             ..SceneArguments::default()
         })
     }

@@ -2,18 +2,31 @@
 
 mod display;
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use carom::contact::Surface;
 use carom::engine::{Collisions, World};
 use carom::motion::Integrator;
 use carom::observe::{
-    AngularMomentum, Energy, Momentum, StateHash, Temperature, Totals, collision_rate,
+    AngularMomentum, Energy, Momentum, StateHash, Statistic, Temperature, Totals, collision_rate,
     compressibility, integrator_drift, total_mass,
 };
 use carom::real::Real;
 use carom::scene::{EngineKind, Impact, Scene};
 use carom::vec3::Vec3;
+
+use super::measured::Reading;
+
+/// The corners of a box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Corners {
+    /// That with the least coordinates.
+    pub lower: [f64; 3],
+    /// That with the greatest.
+    pub upper: [f64; 3],
+}
 
 /// What was run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,6 +54,9 @@ pub struct Setup {
     pub fixed_parts: usize,
     /// Whether space is periodic.
     pub periodic: bool,
+    /// The box of a periodic space, length.
+    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
+    pub space: Option<Corners>,
     /// Length of a step, time; `None` without steps.
     pub dt: Option<f64>,
     /// How many bodies.
@@ -66,6 +82,10 @@ impl Setup {
             gravity: scene.gravity.cast().to_array(),
             fixed_parts: scene.surroundings.len(),
             periodic: scene.periodic.is_some(),
+            space: scene.periodic.map(|space| Corners {
+                lower: space.lower.to_array().map(shortest),
+                upper: space.upper.to_array().map(shortest),
+            }),
             dt: stepped.and_then(|settings| settings.dt).map(|dt| shortest(T::from_f64(dt))),
             bodies: scene.bodies.len(),
             total_mass: total_mass(&scene.bodies),
@@ -74,21 +94,27 @@ impl Setup {
 }
 
 /// What an engine did.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Work {
     /// Simulated time.
     pub time: f64,
     /// Steps taken; 0 by the event-driven engine.
     pub steps: u64,
-    /// Collisions counted.
+    /// Collisions counted, all of them.
     pub collisions: Collisions,
+    /// Those of the first part of a run that goes on.
+    pub earlier: Collisions,
+    /// Its steps.
+    pub earlier_steps: u64,
     /// The impulse of the surroundings on the bodies, mass × length per time.
     pub impulse_from_surroundings: [f64; 3],
-    /// `Σ σ|J_n|` over the pair collisions, mass × length² per time.
-    pub virial: f64,
-    /// Mean length of the flights between collisions, where the engine knows it.
-    pub mean_free_path: Option<f64>,
-    /// Mean translational temperature over the run; `None` for fewer than two
+    /// Time before anything was measured.
+    pub equilibration: f64,
+    /// What has added up since then.
+    pub measured: Reading,
+    /// Means with their errors.
+    pub statistics: BTreeMap<&'static str, Statistic>,
+    /// Mean translational temperature of what was measured; `None` for fewer than two
     /// bodies.
     pub mean_temperature: Option<f64>,
     /// The potential energy that bodies can fall through.
@@ -169,6 +195,9 @@ pub struct Summary {
     pub time: f64,
     /// Steps taken; 0 by the event-driven engine.
     pub steps: u64,
+    /// Time that passed before collisions were counted and figures of the gas taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub equilibrate: Option<f64>,
     /// Collisions counted.
     pub collisions: Collisions,
     /// Energy, mass × length² per time².
@@ -190,6 +219,9 @@ pub struct Summary {
     /// with any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mean_free_path: Option<f64>,
+    /// Means of the gas, each with its statistical error.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub statistics: BTreeMap<&'static str, Statistic>,
     /// Hash of the bits of the final state.
     pub state_hash: StateHash,
     /// Wall time, seconds: set-up, the engine, and writing events.
@@ -211,8 +243,11 @@ impl Work {
             steps: world.steps(),
             collisions: world.collisions(),
             impulse_from_surroundings: world.impulse_from_surroundings(),
-            virial: world.virial(),
-            mean_free_path: world.mean_free_path(),
+            earlier: Collisions::default(),
+            earlier_steps: 0,
+            equilibration: 0.0,
+            measured: Reading::default(),
+            statistics: BTreeMap::new(),
             mean_temperature: None,
             fall: 0.0,
             setup_seconds: 0.0,
@@ -233,7 +268,8 @@ impl Summary {
         state_hash: StateHash,
         work: &Work,
     ) -> Self {
-        let Work { time, steps, collisions, setup_seconds, engine_seconds, .. } = *work;
+        let Work { time, steps, setup_seconds, engine_seconds, measured, .. } = *work;
+        let collisions = measured.collisions;
         let is_timed = engine_seconds > 0.0;
         let per_second = |count: f64| if is_timed { count / engine_seconds } else { 0.0 };
         let in_box = |figure: &dyn Fn() -> f64| setup.periodic.then(figure);
@@ -250,15 +286,21 @@ impl Summary {
             temperature,
             compressibility: in_box(&|| {
                 let mean = work.mean_temperature.unwrap_or(0.0);
-                compressibility(setup.bodies, work.virial, mean, time)
+                compressibility(setup.bodies, measured.virial, mean, measured.time)
             }),
-            collision_rate: in_box(&|| collision_rate(setup.bodies, collisions.pairs, time)),
-            mean_free_path: work.mean_free_path,
+            collision_rate: in_box(&|| {
+                collision_rate(setup.bodies, collisions.pairs, measured.time)
+            }),
+            mean_free_path: measured.mean_free_path(),
+            equilibrate: (work.equilibration > 0.0).then_some(work.equilibration),
+            statistics: work.statistics.clone(),
             state_hash,
             wall_seconds: setup_seconds + engine_seconds,
             setup_seconds,
-            collisions_per_second: per_second((collisions.pairs + collisions.surroundings) as f64),
-            body_steps_per_second: per_second(setup.bodies as f64 * steps as f64),
+            collisions_per_second: per_second(work.collisions.since(work.earlier).total() as f64),
+            body_steps_per_second: per_second(
+                setup.bodies as f64 * (steps - work.earlier_steps) as f64,
+            ),
             setup,
         }
     }
@@ -287,6 +329,7 @@ impl Summary {
             ("temperature", gas.is_none_or(|gas| all(&gas))),
             ("compressibility", self.compressibility.is_none_or(f64::is_finite)),
             ("collision rate", self.collision_rate.is_none_or(f64::is_finite)),
+            ("statistics", self.statistics.values().all(|s| all(&[s.mean, s.error]))),
             ("mean free path", self.mean_free_path.is_none_or(f64::is_finite)),
         ];
         figures.into_iter().find(|(_, is_finite)| !is_finite).map(|(name, _)| name)
@@ -300,7 +343,7 @@ impl EnergySummary {
             rotational: energy.rotational,
             potential: energy.potential,
         };
-        let collisions = work.collisions.pairs + work.collisions.surroundings;
+        let collisions = work.collisions.total();
         // Where space wraps, so does the potential; an impact within a step
         // moves bodies too.
         let is_at_end = setup.impact == Some(Impact::EndOfStep);

@@ -1,6 +1,7 @@
 //! Contact time: when two spheres in relative free flight touch.
 
 use crate::lane::Lane;
+use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// How long ago two spheres came into contact, on straight relative paths: see
@@ -92,10 +93,13 @@ impl<L: Lane> ContactEquation<L> {
         ContactTime { meets, time: gap / (root - self.moving_apart) }
     }
 
-    /// Whether the gap is below a small part of the reach.
+    /// Whether the spheres are all but in contact, and approach each other by no more than
+    /// rounding can tell.
     #[inline(always)]
     pub(crate) fn is_touching(&self, reach: L) -> L::Mask {
+        let angle = L::splat(L::Scalar::whole(8) * L::Scalar::EPSILON.sqrt());
         (-self.overlap).lt(reach * reach * L::ratio(1, 1024))
+            & (-self.moving_apart).lt(angle * reach * self.speed_squared.sqrt())
     }
 }
 

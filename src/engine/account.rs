@@ -1,5 +1,8 @@
 //! Account: what is added up over all collisions.
 
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
 use super::Collisions;
 use crate::compensated::ExactSum;
 use crate::real::Real;
@@ -18,6 +21,7 @@ use crate::vec3::Vec3;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Effort {
     /// Pairs whose contact was looked for.
@@ -55,6 +59,7 @@ pub struct Totals {
 /// workers decide: what is taken back is subtracted, and what workers have added up is
 /// merged. A restart file keeps all of it.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub struct Account {
     pub collisions: Collisions,
     pub effort: Effort,

@@ -32,6 +32,8 @@ mod region;
 mod report;
 mod search;
 mod setting;
+#[cfg(feature = "files")]
+mod snapshot;
 mod store;
 mod territories;
 mod turns;
@@ -40,6 +42,8 @@ mod window;
 
 use super::account::Effort;
 use super::interface::{EventEngine, Stretch};
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -47,6 +51,8 @@ use crate::scene::Scene;
 use crate::vec3::Vec3;
 
 pub(super) use driver::Driver;
+#[cfg(feature = "files")]
+pub(super) use snapshot::EventState;
 
 /// A scene in motion, from collision to collision.
 ///
@@ -313,6 +319,12 @@ impl<T: Real> EventDriven<T> {
         self.engine.bodies()
     }
 
+    /// The bodies in double precision, where their places have more digits in the
+    /// engine's own frame than in the scene's coordinates.
+    pub(crate) fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        self.engine.finer_bodies()
+    }
+
     /// Collisions since the start.
     ///
     /// ```
@@ -397,6 +409,16 @@ impl<T: Real> EventDriven<T> {
     #[must_use]
     pub fn effort(&self) -> Effort {
         self.engine.effort()
+    }
+
+    #[cfg(feature = "files")]
+    pub(super) fn save(&self) -> Snapshot {
+        self.engine.save()
+    }
+
+    #[cfg(feature = "files")]
+    pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        self.engine.restore(saved)
     }
 
     /// The bytes of memory that the engine holds.

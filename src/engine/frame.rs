@@ -8,6 +8,8 @@
 
 use super::account::{Effort, Totals};
 use super::interface::{Engine, EventEngine, StepEngine, Stretch};
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{EngineError, Event, Listener, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
@@ -146,6 +148,7 @@ impl<T: Real> Frame<T> {
                 EngineError::Stalled { time: at(time), events, body }
             }
             EngineError::TooFast { time } => EngineError::TooFast { time: at(time) },
+            EngineError::NoDuration(time) => EngineError::NoDuration(at(time)),
             other => other,
         }
     }
@@ -264,6 +267,23 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
 
     fn bodies(&self) -> Bodies<T> {
         self.frame.leave(self.engine.bodies())
+    }
+
+    #[cfg(feature = "files")]
+    fn save(&self) -> Snapshot {
+        self.engine.save()
+    }
+
+    #[cfg(feature = "files")]
+    fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        self.engine.restore(saved)
+    }
+
+    fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        let Frame { origin, length, time, mass } = self.frame;
+        let is_finer = T::EPSILON.to_f64() > f64::EPSILON && origin != Vec3::ZERO;
+        let frame = Frame { origin: origin.cast::<f64>(), length, time, mass };
+        is_finer.then(|| frame.leave(self.engine.bodies().cast()))
     }
 
     fn bytes(&self) -> usize {

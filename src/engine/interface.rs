@@ -6,6 +6,8 @@
 use core::fmt::Debug;
 
 use super::account::{Effort, Totals};
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{EngineError, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -27,6 +29,20 @@ pub trait Engine<T: Real>: Debug + Send + Sync {
 
     /// The bodies now, in the scene's order.
     fn bodies(&self) -> Bodies<T>;
+
+    /// All that it has to remember.
+    #[cfg(feature = "files")]
+    fn save(&self) -> Snapshot;
+
+    /// Goes on, at its start, from what another engine of the same scene remembered.
+    #[cfg(feature = "files")]
+    fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit>;
+
+    /// The same in double precision, where the engine knows places to more digits than
+    /// the scene's precision has from the scene's origin.
+    fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        None
+    }
 
     /// The bytes of memory that it holds.
     fn bytes(&self) -> usize;

@@ -24,10 +24,14 @@ mod record;
 mod region;
 mod resolve;
 mod setting;
+#[cfg(feature = "files")]
+mod snapshot;
 mod state;
 mod struck;
 
 use super::interface::StepEngine;
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -35,6 +39,8 @@ use crate::scene::{MOST_STEPS, Scene};
 use crate::vec3::Vec3;
 
 pub(super) use driver::Driver;
+#[cfg(feature = "files")]
+pub(super) use snapshot::StepState;
 
 /// A scene in motion, by steps of fixed length.
 ///
@@ -310,6 +316,12 @@ impl<T: Real> Stepped<T> {
         self.engine.bodies()
     }
 
+    /// The bodies in double precision, where their places have more digits in the
+    /// engine's own frame than in the scene's coordinates.
+    pub(crate) fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        self.engine.finer_bodies()
+    }
+
     /// Collisions since the start.
     ///
     /// ```
@@ -359,6 +371,16 @@ impl<T: Real> Stepped<T> {
     #[must_use]
     pub fn virial(&self) -> f64 {
         self.engine.totals().virial
+    }
+
+    #[cfg(feature = "files")]
+    pub(super) fn save(&self) -> Snapshot {
+        self.engine.save()
+    }
+
+    #[cfg(feature = "files")]
+    pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        self.engine.restore(saved)
     }
 
     /// The bytes of memory that the engine holds.

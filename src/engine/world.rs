@@ -1,5 +1,7 @@
 //! World: a scene in motion, by whichever engine moves it.
 
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -54,6 +56,42 @@ impl<T: Compiled> World<T> {
     }
 }
 
+#[cfg(feature = "files")]
+impl<T: Compiled> World<T> {
+    /// A scene where a world of it was when its snapshot was taken: it goes on with the
+    /// same bits, on whatever lanes and threads. See [`Snapshot`].
+    ///
+    /// # Errors
+    /// If the snapshot is of another scene, as far as that shows, otherwise as
+    /// [`new`](World::new).
+    pub fn resume(
+        scene: Scene<T>,
+        execution: Execution,
+        snapshot: &Snapshot,
+    ) -> Result<Self, EngineError> {
+        let mut world = Self::new(scene, execution)?;
+        let restored = match &mut world {
+            Self::Stepped(world) => world.restore(snapshot),
+            Self::EventDriven(world) => world.restore(snapshot),
+        };
+        restored.map_err(|Misfit(what)| EngineError::Snapshot(what))?;
+        Ok(world)
+    }
+}
+
+#[cfg(feature = "files")]
+impl<T: Real> World<T> {
+    /// All that it has to remember to go on from here in another world of the same
+    /// scene. See [`Snapshot`].
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        match self {
+            Self::Stepped(world) => world.save(),
+            Self::EventDriven(world) => world.save(),
+        }
+    }
+}
+
 impl<T: Real> World<T> {
     /// What the scene needs.
     ///
@@ -95,6 +133,14 @@ impl<T: Real> World<T> {
         match self {
             Self::Stepped(world) => world.bodies(),
             Self::EventDriven(world) => world.bodies(),
+        }
+    }
+
+    /// As [`EventDriven::finer_bodies`].
+    pub(crate) fn finer_bodies(&self) -> Option<Bodies<f64>> {
+        match self {
+            Self::Stepped(world) => world.finer_bodies(),
+            Self::EventDriven(world) => world.finer_bodies(),
         }
     }
 

@@ -34,7 +34,9 @@ pub fn turn<L: Lane>(orientation: [&mut [L::Scalar]; 9], spin: [&[L::Scalar]; 3]
 
 // Column by column: `map` over nine of them is not inlined, and an index over
 // arrays of columns is checked against each, which costs a third of the speed.
-#[inline(always)]
+//
+// Not inlined, since every width has the same tail.
+#[inline(never)]
 fn turn_arrays<L: Lane>(
     [xx, xy, xz, yx, yy, yz, zx, zy, zz]: Arrays<L, 9>,
     [x, y, z]: [&[L::Array]; 3],

@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
 use crate::motion::Integrator;
@@ -16,6 +19,7 @@ use crate::vec3::Vec3;
 /// assert_eq!((energy.kinetic(), energy.total()), (4.0, 2.0));
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub struct Energy {
     /// Of the centres' motion: `Σ ½ m v²`.
     pub translational: f64,

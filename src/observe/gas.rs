@@ -3,7 +3,7 @@
 use core::fmt;
 
 #[cfg(feature = "files")]
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::bodies::Bodies;
 use crate::observe::{Energy, Momentum, total_mass};
@@ -24,7 +24,7 @@ use crate::vec3::Vec3;
 /// # Ok::<(), carom::bodies::BodiesError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "files", derive(Serialize))]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub struct Temperature {
     /// Of the centres, `kT = (2 E_trans − P²/M) / 3(N − 1)`: of their motion
     /// relative to the mean velocity. Without total momentum this is

@@ -3,7 +3,7 @@
 use core::fmt;
 
 #[cfg(feature = "files")]
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
@@ -94,6 +94,13 @@ macro_rules! shown_as_vector {
         impl Serialize for $type {
             fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 self.0.to_array().serialize(serializer)
+            }
+        }
+
+        #[cfg(feature = "files")]
+        impl<'de> Deserialize<'de> for $type {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                <[f64; 3]>::deserialize(deserializer).map(|vector| Self(vector.into()))
             }
         }
     };

@@ -1,8 +1,22 @@
 //! What can be observed of a scene in motion.
 
-use super::Energy;
+use super::{Energy, Totals};
+use crate::bodies::Bodies;
 use crate::engine::{EventDriven, Stepped, World};
 use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The energy of bodies in a field, in double precision where they are known to it.
+fn energy<T: Real>(
+    finer: Option<Bodies<f64>>,
+    bodies: impl FnOnce() -> Bodies<T>,
+    gravity: Vec3<T>,
+) -> Energy {
+    match finer {
+        Some(bodies) => Energy::of(&bodies, gravity.cast()),
+        None => Energy::of(&bodies(), gravity),
+    }
+}
 
 impl<T: Real> Stepped<T> {
     /// The energy of all bodies now.
@@ -17,7 +31,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn energy(&self) -> Energy {
-        Energy::of(&self.bodies(), self.gravity())
+        energy(self.finer_bodies(), || self.bodies(), self.gravity())
     }
 }
 
@@ -34,7 +48,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn energy(&self) -> Energy {
-        Energy::of(&self.bodies(), self.gravity())
+        energy(self.finer_bodies(), || self.bodies(), self.gravity())
     }
 }
 
@@ -53,6 +67,28 @@ impl<T: Real> World<T> {
     /// ```
     #[must_use]
     pub fn energy(&self) -> Energy {
-        Energy::of(&self.bodies(), self.gravity())
+        energy(self.finer_bodies(), || self.bodies(), self.gravity())
+    }
+
+    /// What motion conserves, now. Far from its origin a scene in single precision is
+    /// moved in a frame of its own; there the places have more digits than in
+    /// [`bodies`](World::bodies), and these count.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// assert_eq!(world.totals().momentum.0.x, 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn totals(&self) -> Totals {
+        match self.finer_bodies() {
+            Some(bodies) => Totals::of(&bodies, self.gravity().cast()),
+            None => Totals::of(&self.bodies(), self.gravity()),
+        }
     }
 }

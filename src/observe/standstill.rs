@@ -76,7 +76,8 @@ impl Standstill {
     }
 }
 
-/// What a body touches, and the normals from there to it.
+/// What a body touches, and the normals from there to it. Another body that flies away
+/// holds nothing.
 fn touched<T: Real>(
     bodies: &Bodies<T>,
     shapes: &[Shape<T>],
@@ -100,7 +101,9 @@ fn touched<T: Real>(
     for other in (0..bodies.len()).filter(|other| *other != body) {
         let distance = (center - bodies.position_of(other)).cast::<f64>();
         let reach = radius.to_f64() + bodies.radius.of(other).to_f64();
-        if (distance.length() - reach).abs() <= near {
+        let parting = (bodies.velocity_of(body) - bodies.velocity_of(other)).cast::<f64>();
+        let flies_away = parting.dot(unit(distance)) > 1e-3 * parting.length();
+        if (distance.length() - reach).abs() <= near && !flies_away {
             touched.push((Touched::Body(other), unit(distance)));
         }
     }

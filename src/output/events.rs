@@ -84,6 +84,22 @@ impl<W: io::Write> EventWriter<W> {
         Ok(Self { writer, line: CsvLine::default(), failure: None })
     }
 
+    /// Goes on after other collisions, without the names of the columns.
+    #[must_use]
+    pub fn further(output: W) -> Self {
+        Self { writer: csv_writer(output), line: CsvLine::default(), failure: None }
+    }
+
+    /// Hands all collisions so far on to the output.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check).
+    pub fn flush(&mut self) -> io::Result<&W> {
+        self.check()?;
+        self.writer.flush()?;
+        Ok(self.writer.get_ref())
+    }
+
     /// Writes one collision. An engine cannot be stopped in the middle of a
     /// step: a failure is kept for [`check`](Self::check), and nothing is
     /// written after it.

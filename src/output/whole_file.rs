@@ -17,11 +17,8 @@ use tempfile::{Builder, NamedTempFile};
 /// What all temporary names begin with.
 const PREFIX: &str = ".carom-";
 
-/// What the names of files under way end with.
-const SUFFIX: &str = ".tmp";
-
 /// What all temporary names end with.
-const SUFFIXES: [&str; 2] = [SUFFIX, ".png"];
+const SUFFIX: &str = ".tmp";
 
 /// The files of this process that have no name yet.
 struct Unfinished {
@@ -61,7 +58,7 @@ pub struct WholeFile {
 
 /// A temporary file, on the list of those that the end of the program removes.
 #[derive(Debug)]
-pub(crate) struct Temporary {
+struct Temporary {
     // Dropped in this order: the file first, then its place in the list.
     file: NamedTempFile,
     listed: Listed,
@@ -101,7 +98,7 @@ impl WholeFile {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        let temporary = Temporary::new(folder, SUFFIX)?;
+        let temporary = Temporary::new(folder)?;
         if let Some(permissions) = existing {
             temporary.file.as_file().set_permissions(permissions)?;
         }
@@ -126,10 +123,10 @@ impl WholeFile {
 
 impl Temporary {
     /// A temporary file in a folder, with the permissions of any new file.
-    pub(crate) fn new(folder: &Path, suffix: &str) -> io::Result<Self> {
+    fn new(folder: &Path) -> io::Result<Self> {
         let prefix = format!("{PREFIX}{}-", process::id());
         let mut builder = Builder::new();
-        builder.prefix(&prefix).suffix(suffix);
+        builder.prefix(&prefix).suffix(SUFFIX);
         #[cfg(unix)]
         let readable_by_others = {
             use std::os::unix::fs::PermissionsExt;
@@ -151,11 +148,6 @@ impl Temporary {
         unfinished.paths.push(path.clone());
         drop(unfinished);
         Ok(Self { file, listed: Listed(path) })
-    }
-
-    /// Where it is.
-    pub(crate) fn path(&self) -> &Path {
-        self.file.path()
     }
 }
 
@@ -211,7 +203,7 @@ fn tidy(folder: &Path) {
 /// The process that a temporary file is of, by its name.
 fn process_of(name: &str) -> Option<u32> {
     let rest = name.strip_prefix(PREFIX)?;
-    let rest = SUFFIXES.iter().find_map(|suffix| rest.strip_suffix(suffix))?;
+    let rest = rest.strip_suffix(SUFFIX)?;
     rest.split_once('-')?.0.parse().ok()
 }
 

@@ -25,12 +25,12 @@ pub struct Place {
     /// The key, such as `spheres[2].radius`; empty where no key is to blame.
     pub key: String,
     /// The program's option that gave the value instead of the file.
-    pub option: Option<&'static str>,
+    pub option: Option<String>,
 }
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(option) = self.option {
+        if let Some(option) = &self.option {
             return write!(f, "{option}");
         }
         write!(f, "{}", self.scene)?;

@@ -5,12 +5,13 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::assignment::{Assignment, Refused};
 use super::builtin;
 use super::check;
 use super::checked::Scene;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
-use super::origin::Origin;
+use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
 use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
@@ -30,6 +31,7 @@ use crate::vec3::Vec3;
 /// | `precision` | `"f64"` | or `"f32"` |
 /// | `engine` | `"event-driven"`; with a `[stepped]` table `"stepped"` | |
 /// | `duration` | | time; a run needs it |
+/// | `equilibrate` | 0 | time of a run before anything is measured |
 /// | `gravity` | `[0, 0, 0]` | length per time² |
 /// | `seed` | 0 | of all random numbers |
 /// | `encounters` | `"all"` | what spheres can meet; or `"surroundings"`, `"none"` |
@@ -42,6 +44,10 @@ use crate::vec3::Vec3;
 /// | `impact` | `"sub-step"` | or `"end-of-step"` |
 /// | `orientation` | `"when-asked"` | or `"each-step"` |
 /// | `summation` | `"auto"` | or `"plain"`, `"compensated"` |
+///
+/// `[record]` has the `file` of frames that a run writes, and `every` how much time;
+/// `[series]` the same of a time series, and the `columns` in it; `[snapshot]` where and
+/// how `every` much time, or `wall` minutes, a run is kept.
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
@@ -97,10 +103,12 @@ pub struct SceneFile {
     pub dt: Option<f64>,
     /// The seed of all random numbers; 0 by default.
     pub seed: u64,
-    path: String,
+    pub(super) path: String,
     /// What paths in the file start from.
-    folder: PathBuf,
-    text: Arc<str>,
+    pub(super) folder: PathBuf,
+    pub(super) text: Arc<str>,
+    /// What takes the place of the text's values.
+    pub(super) set: Vec<String>,
     pub(super) raw: RawScene,
 }
 
@@ -152,9 +160,20 @@ impl SceneFile {
     ///
     /// Paths in it start from the working directory.
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
-        let text: Arc<str> = text.into();
-        let raw = pieces::scene(&text)
-            .map_err(|error| Origin::file(name, Arc::clone(&text)).toml_error(&error))?;
+        Self::read(name, text.into(), Vec::new())
+    }
+
+    /// Reads a text with assignments in the place of its values.
+    pub(super) fn read(name: &str, text: Arc<str>, set: Vec<String>) -> Result<Self, SceneError> {
+        let origin = Origin::file(name, Arc::clone(&text));
+        let assignments: Vec<Assignment> = set
+            .iter()
+            .map(|set| Assignment::parse(set).map_err(|problem| origin.set_error("", problem)))
+            .collect::<Result<_, _>>()?;
+        let raw = pieces::scene(&text, &assignments).map_err(|refused| match refused {
+            Refused::Text(error) => origin.toml_error(&error),
+            Refused::Assignment(key, problem) => origin.set_error(&key, problem),
+        })?;
         Ok(Self {
             name: name.to_owned(),
             precision: raw.precision.unwrap_or_default(),
@@ -168,6 +187,7 @@ impl SceneFile {
             path: name.to_owned(),
             folder: PathBuf::new(),
             text,
+            set,
             raw,
         })
     }
@@ -351,6 +371,9 @@ impl SceneFile {
     /// Which values came from where.
     pub(super) fn origin(&self) -> Origin {
         let mut origin = Origin::file(&self.path, Arc::clone(&self.text));
+        for assignment in self.set.iter().filter_map(|set| Assignment::parse(set).ok()) {
+            origin.overridden(assignment.key(), set_option(assignment.key()));
+        }
         let bits = |value: Option<f64>| value.map(f64::to_bits);
         if bits(self.duration) != bits(number(self.raw.duration)) {
             origin.overridden("duration", "--duration");
@@ -362,7 +385,7 @@ impl SceneFile {
     }
 }
 
-fn number(value: Option<Number>) -> Option<f64> {
+pub(super) fn number(value: Option<Number>) -> Option<f64> {
     value.map(|Number(value)| value)
 }
 

@@ -31,7 +31,7 @@ pub(super) fn line_of(text: &str, path: &str) -> Option<usize> {
 }
 
 /// What serde says, in the form that all problems have.
-fn reworded(message: &str) -> Problem {
+pub(super) fn reworded(message: &str) -> Problem {
     let (found, expected) = message.split_once(", expected ").unwrap_or((message, ""));
     if found.starts_with("unknown field") {
         let known = expected.trim_start_matches("one of ").to_owned();

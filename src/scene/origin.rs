@@ -17,7 +17,7 @@ pub(super) struct Origin {
     /// The text of the file; `None` for a scene built in code.
     text: Option<Arc<str>>,
     /// Key paths whose values came from an option of the program.
-    options: Vec<(&'static str, &'static str)>,
+    options: Vec<(String, String)>,
 }
 
 impl Origin {
@@ -34,8 +34,9 @@ impl Origin {
     /// The error that a problem with the value of a key makes.
     pub(super) fn error(&self, key: impl Into<String>, problem: Problem) -> SceneError {
         let key = key.into();
-        let option = self.options.iter().find(|(path, _)| *path == key).map(|(_, option)| *option);
-        let line = match (&self.text, option) {
+        let mut options = self.options.iter().filter(|(path, _)| is_within(&key, path));
+        let option = options.next_back().map(|(_, option)| option.clone());
+        let line = match (&self.text, &option) {
             (Some(text), None) => line_of(text, &key),
             _ => None,
         };
@@ -54,7 +55,7 @@ impl Origin {
         &self,
         key: String,
         line: Option<usize>,
-        option: Option<&'static str>,
+        option: Option<String>,
         problem: Problem,
     ) -> SceneError {
         let place = Place { scene: self.scene.clone(), line, key, option };
@@ -70,8 +71,13 @@ impl Origin {
     }
 
     /// Notes that an option of the program gave the value of a key.
-    pub(super) fn overridden(&mut self, key: &'static str, option: &'static str) {
-        self.options.push((key, option));
+    pub(super) fn overridden(&mut self, key: &str, option: impl Into<String>) {
+        self.options.push((key.to_owned(), option.into()));
+    }
+
+    /// The error that an assignment of the program's option `--set` makes.
+    pub(super) fn set_error(&self, key: &str, problem: Problem) -> SceneError {
+        self.error_at(key.to_owned(), None, Some(set_option(key)), problem)
     }
 
     /// The error that the TOML library reports, in this crate's words.
@@ -80,6 +86,18 @@ impl Origin {
         let (key, line, problem) = explained(text, error);
         self.error_at(key, line, None, problem)
     }
+}
+
+/// The option that sets a key.
+#[cfg(feature = "files")]
+pub(super) fn set_option(key: &str) -> String {
+    format!("--set {key}").trim_end().to_owned()
+}
+
+/// Whether a key path is another one or leads on from it.
+fn is_within(key: &str, outer: &str) -> bool {
+    let rest = key.strip_prefix(outer);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
 /// Without the feature `files` there is no text to have lines.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use toml::de::DeTable;
 
+use super::assignment::{self, Assignment, Refused};
 use super::raw::{RawScene, RawSpheres};
 
 /// Entries from which a file is read in pieces, and how many a piece has.
@@ -20,16 +21,21 @@ struct Piece {
     spheres: Vec<RawSpheres>,
 }
 
-/// Reads a scene file.
-pub(super) fn scene(text: &str) -> Result<RawScene, toml::de::Error> {
+/// Reads a scene file, with assignments in the place of its values.
+pub(super) fn scene(text: &str, set: &[Assignment]) -> Result<RawScene, Refused> {
     // Whatever is out of the ordinary, mistakes among it, is read as a whole.
-    in_pieces(text).map_or_else(|| toml::from_str(text), Ok)
+    in_pieces(text, set).map_or_else(|| assignment::read(text, set), Ok)
 }
 
 /// The scene, if its entries of spheres are many, stand one after the other, and
 /// are right.
-fn in_pieces(text: &str) -> Option<RawScene> {
+fn in_pieces(text: &str, set: &[Assignment]) -> Option<RawScene> {
     let starts = starts_of_entries(text)?;
+    let (of_spheres, others): (Vec<&Assignment>, Vec<&Assignment>) =
+        set.iter().partition(|assignment| assignment.is_of_spheres());
+    if !of_spheres.iter().all(|set| set.entry().is_some_and(|entry| entry < starts.len())) {
+        return None;
+    }
     let (first, last) = (*starts.first()?, *starts.last()?);
     // After the last entry there may be other tables.
     let end = last + end_of_entry(&text[last..]);
@@ -39,13 +45,19 @@ fn in_pieces(text: &str) -> Option<RawScene> {
     if DeTable::parse(&rest).ok()?.get_ref().contains_key("spheres") {
         return None;
     }
-    let mut scene: RawScene = toml::from_str(&rest).ok()?;
+    let others: Vec<Assignment> = others.into_iter().cloned().collect();
+    let mut scene: RawScene = assignment::read(&rest, &others).ok()?;
     let pieces = starts.chunks(MANY).enumerate().map(|(piece, chunk)| {
         let next = starts.get((piece + 1) * MANY).copied();
-        &text[chunk[0]..next.unwrap_or(end)]
+        let first = piece * MANY;
+        let is_here = |set: &&&Assignment| set.entry().is_some_and(|entry| entry / MANY == piece);
+        let own = of_spheres.iter().filter(is_here).map(|set| set.after(first));
+        (&text[chunk[0]..next.unwrap_or(end)], own.collect())
     });
-    let pieces: Vec<&str> = pieces.collect();
-    let read = |piece: &&str| toml::from_str(piece).ok().map(|Piece { spheres }| spheres);
+    let pieces: Vec<(&str, Vec<Assignment>)> = pieces.collect();
+    let read = |(piece, set): &(&str, Vec<Assignment>)| {
+        assignment::read(piece, set).ok().map(|Piece { spheres }| spheres)
+    };
     let pieces: Vec<Vec<RawSpheres>> = pieces.par_iter().map(read).collect::<Option<_>>()?;
     scene.spheres = Vec::with_capacity(starts.len());
     scene.spheres.extend(pieces.into_iter().flatten());
@@ -103,16 +115,31 @@ mod tests {
             let text =
                 format!("duration = 1\n[surface]\nkind = \"rough\"\n{entries}[stepped]\ndt = 1\n");
             let whole: RawScene = toml::from_str(&text).unwrap();
-            let pieces = in_pieces(&text).unwrap();
+            let pieces = in_pieces(&text, &[]).unwrap();
             assert_eq!(format!("{pieces:?}"), format!("{whole:?}"));
             assert_eq!(pieces.spheres.len(), count);
         }
     }
 
     #[test]
+    fn assignments_find_their_entry_in_its_piece() {
+        let text: String = (0..2 * MANY).map(entry).collect();
+        let last = 2 * MANY - 1;
+        let set = [format!("spheres[{last}].radius=3"), "duration=7".to_owned()];
+        let set = set.map(|text| Assignment::parse(&text).unwrap_or_else(|_| panic!("{text}")));
+        let pieces = in_pieces(&text, &set).unwrap();
+        let whole: Option<RawScene> = assignment::read(&text, &set).ok();
+        assert_eq!(format!("{:?}", Some(&pieces)), format!("{:?}", whole.as_ref()));
+        let radius = format!("{:?}", pieces.spheres[last].radius);
+        assert_eq!(radius, "Some(Same(3.0))");
+        let beyond = Assignment::parse(&format!("spheres[{}].radius=3", last + 1));
+        assert!(in_pieces(&text, &beyond.map_or_else(|_| vec![], |set| vec![set])).is_none());
+    }
+
+    #[test]
     fn what_is_out_of_the_ordinary_is_read_as_a_whole() {
         let entries: String = (0..MANY).map(entry).collect();
-        assert!(in_pieces(&entries).is_some());
+        assert!(in_pieces(&entries, &[]).is_some());
         for text in [
             entry(0),
             format!("{entries}[stepped]\ndt = 1\n{}", entry(0)),
@@ -122,7 +149,7 @@ mod tests {
             format!("dt = \"\"\"\n\"\"\"\n{entries}"),
             format!("{entries}[periodic\n"),
         ] {
-            assert!(in_pieces(&text).is_none());
+            assert!(in_pieces(&text, &[]).is_none());
         }
     }
 }

@@ -22,6 +22,7 @@ pub(super) struct RawScene {
     pub(super) precision: Option<Precision>,
     pub(super) engine: Option<EngineKind>,
     pub(super) duration: Option<Number>,
+    pub(super) equilibrate: Option<Number>,
     pub(super) gravity: Option<Vector>,
     pub(super) seed: Option<Whole>,
     pub(super) encounters: Option<Encounters>,
@@ -33,6 +34,12 @@ pub(super) struct RawScene {
     pub(super) surroundings: Vec<RawSurroundings>,
     #[serde(default, deserialize_with = "entries")]
     pub(super) spheres: Vec<RawSpheres>,
+    #[serde(default)]
+    pub(super) record: RawWritten,
+    #[serde(default)]
+    pub(super) series: RawSeries,
+    #[serde(default)]
+    pub(super) snapshot: RawSnapshot,
 }
 
 impl RawScene {
@@ -51,6 +58,32 @@ pub(super) struct RawStepped {
     pub(super) impact: Option<Impact>,
     pub(super) orientation: Option<OrientationUpdate>,
     pub(super) summation: Option<Summation>,
+}
+
+/// `[record]`: what a run writes on its way.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawWritten {
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
+}
+
+/// `[series]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSeries {
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
+    pub(super) columns: Option<Vec<String>>,
+}
+
+/// `[snapshot]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawSnapshot {
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
+    pub(super) wall: Option<Number>,
 }
 
 /// `[surface]`.

@@ -211,6 +211,24 @@ pub enum Summation {
     Compensated,
 }
 
+/// What a scene file asks a run to write on its way, and how often.
+///
+/// ```
+/// use carom::SceneFile;
+/// let file = SceneFile::parse("ball", "[record]\nfile = \"ball.dump\"\nevery = 0.5\n")?;
+/// let record = file.record()?;
+/// assert_eq!((record.file, record.every), (Some("ball.dump".into()), Some(0.5)));
+/// # Ok::<(), carom::SceneError>(())
+/// ```
+#[cfg(feature = "files")]
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Written {
+    /// The file.
+    pub file: Option<std::path::PathBuf>,
+    /// Time from one to the next.
+    pub every: Option<f64>,
+}
+
 /// The most bodies that a scene may have: one hundred million.
 ///
 /// ```

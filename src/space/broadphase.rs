@@ -11,22 +11,24 @@
 //! The contacts that the narrow phase finds among the candidates do not depend
 //! on the skin, the grid or the order of the bodies.
 
+mod at_parts;
 mod candidates;
 mod grid;
 mod order;
 mod skin;
 
+use at_parts::{FEW_PARTS, PartSearch};
 pub use candidates::{Candidates, Chunk, Pair};
-use candidates::{FEW_PARTS, Search, SearchedGrid, shell_ends};
+use candidates::{Search, SearchedGrid, shell_ends};
 use grid::Grid;
 use order::CellOrder;
 use skin::{best_skin, neighbours};
 
-use crate::bodies::{Columns3, Figure, PerBody, Same, at};
+use crate::bodies::{Columns3, PerBody, Same, at};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::space::sizes::{class, classes};
-use crate::space::{FixedParts, OpenSpace, PeriodicBox, Tree};
+use crate::space::{FixedParts, OpenSpace, PeriodicBox, Space, Tree};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
@@ -223,41 +225,44 @@ impl<T: Real> BroadPhase<T> {
         candidates: &mut Candidates,
         workers: &Workers,
     ) {
-        match (surveyed.radius, surveyed.periodic) {
-            (PerBody::Same(r), None) => {
-                self.search_in::<L, _, _, _>(
-                    surveyed,
-                    Same(*r),
-                    OpenSpace,
-                    skin,
-                    candidates,
-                    workers,
-                );
+        let grids: Vec<_> =
+            self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();
+        candidates.begin(&grids, &self.order.starts);
+        let position = surveyed.position.each_ref().map(|column| column.padded());
+        let search = Search {
+            position,
+            skin,
+            shell_ends: shell_ends(skin),
+            starts: &self.order.starts,
+            grids: &grids,
+        };
+        let images = surveyed.periodic.map_or_else(|| OpenSpace.images(), Space::images);
+        let part_search = PartSearch {
+            position,
+            radius: surveyed.radius,
+            images: &images,
+            skin,
+            shell_ends: shell_ends(skin),
+            parts: surveyed.parts,
+            tree: &self.tree,
+        };
+        workers.each(&mut candidates.chunks, |chunk| {
+            if surveyed.pairs {
+                match (surveyed.radius, surveyed.periodic) {
+                    (PerBody::Same(r), None) => search.pairs::<L, _, _>(Same(*r), OpenSpace, chunk),
+                    (PerBody::Same(r), Some(space)) => {
+                        search.pairs::<L, _, _>(Same(*r), space, chunk);
+                    }
+                    (PerBody::Each(r), None) => {
+                        search.pairs::<L, _, _>(r.padded(), OpenSpace, chunk);
+                    }
+                    (PerBody::Each(r), Some(space)) => {
+                        search.pairs::<L, _, _>(r.padded(), space, chunk);
+                    }
+                }
             }
-            (PerBody::Same(r), Some(space)) => {
-                self.search_in::<L, _, _, _>(surveyed, Same(*r), space, skin, candidates, workers);
-            }
-            (PerBody::Each(r), None) => {
-                self.search_in::<L, _, _, _>(
-                    surveyed,
-                    r.padded(),
-                    OpenSpace,
-                    skin,
-                    candidates,
-                    workers,
-                );
-            }
-            (PerBody::Each(r), Some(space)) => {
-                self.search_in::<L, _, _, _>(
-                    surveyed,
-                    r.padded(),
-                    space,
-                    skin,
-                    candidates,
-                    workers,
-                );
-            }
-        }
+            part_search.search::<L>(chunk.bodies.clone(), chunk);
+        });
         let at_parts = if self.has_many_parts() { candidates.at_parts_count() } else { 0 };
         if surveyed.pairs || at_parts > 0 {
             let found = candidates.pair_count() + at_parts;
@@ -265,40 +270,6 @@ impl<T: Real> BroadPhase<T> {
             let skin = skin.to_f64() / self.mean_diameter;
             self.density = Some(found / neighbours(1.0, skin));
         }
-    }
-
-    fn search_in<L, R, S, P>(
-        &self,
-        surveyed: &Surveyed<'_, T, P>,
-        radius: R,
-        space: S,
-        skin: T,
-        candidates: &mut Candidates,
-        workers: &Workers,
-    ) where
-        L: Lane<Scalar = T>,
-        R: Figure<T>,
-        S: crate::space::Space<T>,
-        P: FixedParts<T> + ?Sized,
-    {
-        let grids: Vec<_> =
-            self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();
-        candidates.begin(&grids, &self.order.starts);
-        let search = Search {
-            position: [0, 1, 2].map(|axis| surveyed.position[axis].padded()),
-            radius,
-            space,
-            skin,
-            shell_ends: shell_ends(skin),
-            starts: &self.order.starts,
-            grids: &grids,
-        };
-        workers.each(&mut candidates.chunks, |chunk| {
-            if surveyed.pairs {
-                search.pairs::<L>(chunk);
-            }
-            search.at_parts::<L, P>(surveyed.parts, &self.tree, chunk);
-        });
     }
 
     /// The bytes that the search works in.

@@ -102,8 +102,14 @@ impl<T: Real> Tree<T> {
     /// means nothing; those without end are left out.
     #[inline]
     pub fn for_each(&self, bounds: Bounds<T>, mut visit: impl FnMut(u32)) {
-        let _ = self.visit(bounds, |number| -> ControlFlow<()> {
-            visit(number);
+        self.for_each_box(bounds, |_, number| visit(number));
+    }
+
+    /// As [`for_each`](Self::for_each), and the boxes themselves, a little grown.
+    #[inline]
+    pub(crate) fn for_each_box(&self, bounds: Bounds<T>, mut visit: impl FnMut(Bounds<T>, u32)) {
+        let _ = self.visit(bounds, |bounds, number| -> ControlFlow<()> {
+            visit(bounds, number);
             ControlFlow::Continue(())
         });
     }
@@ -111,7 +117,7 @@ impl<T: Real> Tree<T> {
     /// Whether any box that touches `bounds` is what `is_wanted` says; those
     /// without end are left out.
     pub fn any(&self, bounds: Bounds<T>, mut is_wanted: impl FnMut(u32) -> bool) -> bool {
-        let visit = |number| {
+        let visit = |_, number| {
             if is_wanted(number) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         self.visit(bounds, visit).is_break()
@@ -129,7 +135,7 @@ impl<T: Real> Tree<T> {
     fn visit<B>(
         &self,
         bounds: Bounds<T>,
-        mut visit: impl FnMut(u32) -> ControlFlow<B>,
+        mut visit: impl FnMut(Bounds<T>, u32) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
         let [lower, upper] = grown(bounds).map(Vec3::to_array);
         let mut at = 0;
@@ -142,7 +148,7 @@ impl<T: Real> Tree<T> {
             let first = node.first as usize;
             for &(bounds, number) in &self.boxes[first..first + node.count as usize] {
                 if touch(bounds.map(Vec3::to_array), [lower, upper]) {
-                    visit(number)?;
+                    visit(bounds, number)?;
                 }
             }
             at += 1;

@@ -11,7 +11,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::StudyError;
 use super::folder::{Folder, write};
-use crate::output::Temporary;
 use axis::Divided;
 
 pub use axis::{Axis, Scale};
@@ -58,10 +57,22 @@ pub struct Chart {
     pub series: Vec<Series>,
 }
 
-/// Charts side by side.
+/// The file of a picture of three bytes a pixel, row by row.
+fn png(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut file = encoder.write_header()?;
+    file.write_image_data(pixels)?;
+    file.finish()?;
+    Ok(bytes)
+}
+
+/// Charts side by side; more than three stand in rows of two.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
-    /// From left to right.
+    /// From left to right, and from the top down.
     pub charts: Vec<Chart>,
 }
 
@@ -98,43 +109,63 @@ impl Picture {
     /// # Errors
     /// If a file cannot be written.
     pub fn write(&self, folder: &Folder, name: &str) -> Result<(), StudyError> {
-        static FONTS: Once = Once::new();
-        FONTS.call_once(|| {
-            // A font that cannot be read leaves the picture without text.
-            let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
-        });
         let folder = folder.path();
-        let width = self.charts.iter().map(Chart::width).sum::<u32>().max(1);
-        let size = (width, SIZE.1);
         let failed =
             |path: &Path, reason: String| StudyError::Picture { path: path.into(), reason };
 
         let path = folder.join(format!("{name}.svg"));
-        let mut text = String::new();
-        self.draw(&SVGBackend::with_string(&mut text, size).into_drawing_area())
-            .map_err(|reason| failed(&path, reason))?;
+        let text = self.svg().map_err(|reason| failed(&path, reason))?;
         write(&path, text.as_bytes())?;
 
         let path = folder.join(format!("{name}.png"));
-        // The back end draws into a file, whose name says in which format.
-        let file = Temporary::new(folder, ".png");
-        let file = file.map_err(|error| failed(&path, error.to_string()))?;
-        self.draw(&BitMapBackend::new(file.path(), size).into_drawing_area())
+        let size = self.size();
+        let mut pixels = vec![0; 3 * size.0 as usize * size.1 as usize];
+        self.draw(&BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area())
             .map_err(|reason| failed(&path, reason))?;
-        let bytes = std::fs::read(file.path()).map_err(|error| failed(&path, error.to_string()))?;
+        let bytes = png(&pixels, size).map_err(|error| failed(&path, error.to_string()))?;
         write(&path, &bytes)
+    }
+
+    /// The text of the picture as SVG.
+    ///
+    /// # Errors
+    /// If it cannot be drawn, as a sentence.
+    pub fn svg(&self) -> Result<String, String> {
+        let mut text = String::new();
+        self.draw(&SVGBackend::with_string(&mut text, self.size()).into_drawing_area())?;
+        Ok(text)
+    }
+
+    /// The charts that stand side by side.
+    fn rows(&self) -> impl Iterator<Item = &[Chart]> {
+        self.charts.chunks(if self.charts.len() > 3 { 2 } else { 3 })
+    }
+
+    /// Width and height, pixels.
+    fn size(&self) -> (u32, u32) {
+        let widths = self.rows().map(|row| row.iter().map(Chart::width).sum::<u32>());
+        (widths.max().unwrap_or(1), SIZE.1 * self.rows().count().max(1) as u32)
     }
 
     fn draw<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
     ) -> Result<(), String> {
+        static FONTS: Once = Once::new();
+        FONTS.call_once(|| {
+            // A font that cannot be read leaves the picture without text.
+            let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
+        });
         area.fill(&WHITE).map_err(|error| error.to_string())?;
-        let mut rest = area.clone();
-        for chart in &self.charts {
-            let (own, right) = rest.split_horizontally(chart.width());
-            chart.draw(&own)?;
-            rest = right;
+        let mut below = area.clone();
+        for row in self.rows() {
+            let (mut rest, next) = below.split_vertically(SIZE.1);
+            for chart in row {
+                let (own, right) = rest.split_horizontally(chart.width());
+                chart.draw(&own)?;
+                rest = right;
+            }
+            below = next;
         }
         area.present().map_err(|error| error.to_string())
     }

@@ -64,6 +64,17 @@ impl Course {
         Self::position(world) / self.length
     }
 
+    /// Where a world is after a time that is at least one step, in steps or in time.
+    #[must_use]
+    pub fn after<T: Real>(&self, world: &World<T>, time: f64) -> f64 {
+        match world {
+            World::Stepped(world) => {
+                world.steps() as f64 + (time / world.exact_dt()).floor().max(1.0)
+            }
+            World::EventDriven(world) => world.time() + time,
+        }
+    }
+
     /// Goes on towards `mark`, in steps or in time, and returns whether the world is
     /// there. A `stretch` is a number of steps, or of collisions, or of small parts
     /// of the course without any: a world where much happens comes back too.

@@ -23,6 +23,9 @@ pub struct Subject {
     pub seed: u64,
     /// The scene file.
     pub text: String,
+    /// What takes the place of the file's values.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub set: Vec<String>,
     /// The hashes of the files that it takes spheres from.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
@@ -38,6 +41,7 @@ impl Subject {
             dt: file.dt,
             seed: file.seed,
             text: file.text().to_owned(),
+            set: file.values().to_vec(),
             states: file.state_files().iter().map(|path| hash(path)).collect(),
         }
     }

@@ -57,6 +57,18 @@ impl<T: Real> FixedSphere<T> {
         Self { center: center.into(), radius, inside: true }
     }
 
+    /// The flight of a centre, seen from its own.
+    fn approach(&self, flight: &FreeFlight<T>) -> Approach<T> {
+        let radius = if self.inside { -flight.radius } else { flight.radius };
+        Approach {
+            offset: flight.center - self.center,
+            velocity: flight.velocity,
+            acceleration: flight.acceleration.unwrap_or(Vec3::ZERO),
+            reach: self.radius + radius,
+            is_hollow: self.inside,
+        }
+    }
+
     /// The cube about its centre whose faces are `reach` away.
     fn cube(&self, reach: T) -> [Vec3<T>; 2] {
         let reach = Vec3::new(reach, reach, reach);
@@ -85,14 +97,7 @@ impl<T: Real> Obstacle<T> for FixedSphere<T> {
 
     /// For centres at the sum of the radii, inside at their difference.
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
-        let radius = if self.inside { -flight.radius } else { flight.radius };
-        let approach = Approach {
-            offset: flight.center - self.center,
-            velocity: flight.velocity,
-            acceleration: flight.acceleration.unwrap_or(Vec3::ZERO),
-            reach: self.radius + radius,
-            is_hollow: self.inside,
-        };
+        let approach = self.approach(flight);
         let slack = approach.squared(flight.slack(self.center));
         let start = Start::at(approach.gap_squared(), slack, flight.is_leaving);
         approach.contact_time(start, |_| true)
@@ -108,6 +113,10 @@ impl<T: Real> Obstacle<T> for FixedSphere<T> {
 
     fn is_hollow(&self) -> bool {
         self.inside
+    }
+
+    fn hop(&self, flight: &FreeFlight<T>, wait: T) -> T {
+        self.approach(flight).hop(wait)
     }
 }
 

@@ -30,6 +30,12 @@ pub(crate) trait Obstacle<T: Real> {
     fn is_hollow(&self) -> bool {
         false
     }
+
+    /// From contact, the time of a flight along it that stands for shorter ones: `wait`
+    /// itself, unless that is too short to get on by.
+    fn hop(&self, _flight: &FreeFlight<T>, wait: T) -> T {
+        wait
+    }
 }
 
 /// A fixed solid, as a scene names it: the scene's side of a shape.
@@ -254,6 +260,12 @@ macro_rules! solids {
             fn is_hollow(&self) -> bool {
                 match self {
                     $(Self::$solid(solid) => Obstacle::is_hollow(solid),)*
+                }
+            }
+
+            fn hop(&self, flight: &FreeFlight<T>, wait: T) -> T {
+                match self {
+                    $(Self::$solid(solid) => solid.hop(flight, wait),)*
                 }
             }
         }

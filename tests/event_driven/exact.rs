@@ -3,6 +3,7 @@
 use carom::contact::Surface;
 use carom::engine::Compiled;
 use carom::scene::Sphere;
+use carom::space::PeriodicBox;
 use carom::surroundings::{FixedSphere, Plane};
 
 use crate::common::known::SUPERBALL;
@@ -179,4 +180,25 @@ fn parabolas_meet_a_sphere_at_the_exact_time() {
     let (single, double) = (errors::<f32>(), errors::<f64>());
     println!("f32 {single:.1} ε, f64 {double:.1} ε");
     assert!(single < 4.0 && double < 4.0, "{single} {double}");
+}
+
+/// Two equal balls on a line in a periodic box: each in turn goes round and meets the other
+/// from its other side, at times that periods of the engine can begin at, too.
+#[test]
+fn the_same_two_meet_again_through_the_other_side() {
+    fn around<T: Compiled>() {
+        for eighths in 1..=16 {
+            let gap = f64::from(eighths) / 8.0;
+            let scene = builder::<T>()
+                .periodic(PeriodicBox::new(t3([0.0; 3]), t3([4.0; 3])))
+                .sphere(Sphere::new([0.5, 2.0, 2.0]).radius(0.5).velocity([1.0, 0.0, 0.0]))
+                .sphere(Sphere::new([1.5 + gap, 2.0, 2.0]).radius(0.5));
+            let mut world = world(scene.build().unwrap());
+            let times: Vec<f64> = events(&mut world, 50.0).iter().map(|event| event.time).collect();
+            let right: Vec<f64> = (0..25).map(|k| gap + 2.0 * f64::from(k)).collect();
+            assert_eq!(times, right, "{gap} in {}", T::NAME);
+        }
+    }
+    around::<f32>();
+    around::<f64>();
 }

@@ -150,7 +150,7 @@ fn files_that_would_be_written_over_each_other() {
         let message = folder.says(&run).fails_with(2);
         assert!(message.contains("--events and --state"), "{message}");
     }
-    let message = folder.says("run scene.toml --state ./scene.toml").fails_with(2);
+    let message = folder.says("run scene.toml --events ./scene.toml").fails_with(2);
     assert!(message.contains("scene file"), "{message}");
     assert_eq!(folder.read("scene.toml"), BOX);
     let message = folder.says("run scene.toml --json --events -").fails_with(2);

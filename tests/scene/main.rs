@@ -1,5 +1,6 @@
 //! Scene files and builders, from the outside.
 
+mod assignments;
 mod dilated;
 mod made;
 mod mistakes;

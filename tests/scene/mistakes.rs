@@ -143,7 +143,7 @@ fn options_are_blamed_for_their_values() {
     let mut file = file(&format!("duration = 1\n{BALL}")).unwrap();
     file.dt = Some(-1.0);
     let error = file.build::<f64>().unwrap_err();
-    assert_eq!(error.place.option, Some("--dt"));
+    assert_eq!(error.place.option.as_deref(), Some("--dt"));
     assert_eq!(error.to_string(), "--dt is -1.0; a time step must be finite and greater than 0");
     file.dt = Some(0.1);
     file.duration = Some(f64::NAN);

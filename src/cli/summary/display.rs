@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::{Summary, shortest};
+use carom::observe::Statistic;
 use carom::study::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
 
 /// The labels of a vector's rows.
@@ -43,6 +44,9 @@ impl Summary {
         let mut time = self.time_words();
         if let Some(dt) = self.setup.dt {
             time += &format!(" in {} of {}", counted(self.steps, "step"), plain(dt));
+        }
+        if let Some(equilibrate) = self.equilibrate {
+            time += &format!(", measured after {}", plain(equilibrate));
         }
         line("  time", time);
         line(
@@ -161,12 +165,20 @@ impl Summary {
 
     fn gas(&self) -> Table {
         let mut table = Table::of_texts();
+        let with_error = |name: &str, value: f64| match self.statistics.get(name) {
+            None => digits(value),
+            Some(Statistic { error, drifts, .. }) => {
+                let drift = if *drifts { ", still drifting" } else { "" };
+                format!("{} ± {}{drift}", digits(value), rounded(*error))
+            }
+        };
         if let (Some(factor), Some(rate)) = (self.compressibility, self.collision_rate) {
-            table.row("compressibility", [digits(factor)]);
-            table.row("collision rate", [format!("{} per body and time", digits(rate))]);
+            table.row("compressibility", [with_error("compressibility", factor)]);
+            let rate = with_error("collision_rate", rate);
+            table.row("collision rate", [format!("{rate} per body and time")]);
         }
         if let Some(path) = self.mean_free_path {
-            table.row("mean free path", [digits(path)]);
+            table.row("mean free path", [with_error("mean_free_path", path)]);
         }
         if let Some(temperature) = self.temperature.filter(|_| self.setup.bodies >= A_GAS) {
             table.row("temperature", [format!("{temperature}")]);

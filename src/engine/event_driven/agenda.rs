@@ -19,6 +19,18 @@ impl PartnerCode {
         Self(number)
     }
 
+    /// The number that stands for it in a snapshot.
+    #[cfg(feature = "files")]
+    pub fn code(self) -> u32 {
+        self.0
+    }
+
+    /// What a number in a snapshot stands for.
+    #[cfg(feature = "files")]
+    pub fn from_code(code: u32) -> Self {
+        Self(code)
+    }
+
     /// A fixed feature.
     #[inline(always)]
     pub fn feature(number: u32) -> Self {

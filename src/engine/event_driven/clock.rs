@@ -1,7 +1,12 @@
 //! Clock: how far time is, and whether it advances.
 
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
 use super::calendar::Turn;
 use crate::compensated::CompensatedSum;
+#[cfg(feature = "files")]
+use crate::engine::snapshot::{Misfit, Reals};
 use crate::real::Real;
 
 /// Turns that may pass while time stands still, for scenes of few bodies.
@@ -40,6 +45,51 @@ pub(super) struct Clock<T> {
     progress: T,
     /// Turns since it did.
     standstill: u64,
+}
+
+/// What a snapshot keeps of a clock.
+#[cfg(feature = "files")]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct ClockState {
+    origin: CompensatedSum,
+    time: f64,
+    idle: u32,
+    turns: u64,
+    standstill: u64,
+    /// Period, square of the speed, last collision, progress.
+    reals: Reals,
+}
+
+#[cfg(feature = "files")]
+impl<T: Real> Clock<T> {
+    /// What a snapshot keeps.
+    pub fn save(&self) -> ClockState {
+        let Self { origin, time, idle, turns, standstill, .. } = *self;
+        let reals = Reals::of([self.period, self.too_fast, self.last_collision, self.progress]);
+        ClockState { origin, time, idle, turns, standstill, reals }
+    }
+
+    /// The clock that a snapshot was taken of.
+    pub fn restored(saved: &ClockState) -> Result<Self, Misfit> {
+        let ClockState { origin, time, idle, turns, standstill, .. } = *saved;
+        let reals: Vec<T> = saved.reals.read(4, "clock")?;
+        let [period, too_fast, last_collision, progress] = core::array::from_fn(|k| reals[k]);
+        Ok(Self {
+            origin,
+            period,
+            too_fast,
+            last_collision,
+            time,
+            idle,
+            turns,
+            turns_per_time: None,
+            window: None,
+            longest_window: T::ZERO,
+            worked_off: last_collision,
+            progress,
+            standstill,
+        })
+    }
 }
 
 impl<T: Real> Clock<T> {

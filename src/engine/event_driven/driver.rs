@@ -5,6 +5,8 @@ use super::order::{End, Shift, longest_window};
 use super::period::{begin_period, place};
 use super::region::Worker;
 use super::setting::Setting;
+#[cfg(feature = "files")]
+use super::snapshot;
 use super::store::Store;
 use super::territories::Team;
 use super::turns::{next_turn, take_turn};
@@ -14,7 +16,9 @@ use crate::compensated::CompensatedSum;
 use crate::engine::account::{Account, Effort, Totals};
 use crate::engine::interface::{Engine, EventEngine, Stretch};
 use crate::engine::plan::{Plan, Turning};
-use crate::engine::{EngineError, Execution, Listener, Order};
+#[cfg(feature = "files")]
+use crate::engine::snapshot::{Misfit, Snapshot, State};
+use crate::engine::{EngineError, Execution, LONGEST_RUN, Listener, Order};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
@@ -61,11 +65,16 @@ impl<T: Real> Driver<T> {
         }
         begin_period(setting, store, team, clock, end);
         if let Some(window) = clock.window {
-            clock.longest_window = longest_window(setting, store, clock);
             let first = clock.period * T::ratio(1, FIRST_WINDOWS);
-            let window = if was_strict { first } else { window };
-            clock.window = Some(window.lesser(clock.longest_window));
+            self.begin_windows(if was_strict { first } else { window });
         }
+    }
+
+    /// Goes on in windows of a length, or of the longest that is possible.
+    fn begin_windows(&mut self, length: T) {
+        let Self { setting, store, clock, .. } = self;
+        clock.longest_window = longest_window(setting, store, clock);
+        clock.window = Some(length.lesser(clock.longest_window));
     }
 
     /// Goes on in strict order of time, or in windows.
@@ -146,6 +155,9 @@ impl<T: Real> EventEngine<T> for Driver<T> {
         Stretch { collisions, is_exact }: Stretch,
         mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
+        if time > LONGEST_RUN {
+            return Err(EngineError::NoDuration(time));
+        }
         let last = self.account().collisions.total().saturating_add(collisions);
         // A window of which a few collisions are wanted would be thrown away.
         self.choose_order(is_exact && collisions < self.store.records.len() as u64);
@@ -262,6 +274,29 @@ impl<T: Real> Engine<T> for Driver<T> {
             }
         }
         bodies
+    }
+
+    #[cfg(feature = "files")]
+    fn save(&self) -> Snapshot {
+        let is_too_fast = self.team.workers[0].is_too_fast;
+        let state = snapshot::save(&self.store, &self.clock, is_too_fast);
+        Snapshot { account: self.account().clone(), state: State::EventDriven(state) }
+    }
+
+    #[cfg(feature = "files")]
+    fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        let State::EventDriven(state) = &saved.state else { return Err(Misfit("engine")) };
+        self.clock = snapshot::restore(&self.setting, &mut self.store, state)?;
+        if self.setting.plan.order == Order::Windows {
+            self.begin_windows(self.clock.period * T::ratio(1, FIRST_WINDOWS));
+        }
+        let Self { setting, store, clock, team } = self;
+        // The bodies have met all that they meet before this time, and nothing since.
+        place(setting, store, team, clock, clock.last_collision);
+        let worker = team.first();
+        worker.is_too_fast = state.is_too_fast;
+        worker.account.clone_from(&saved.account);
+        Ok(())
     }
 
     fn bytes(&self) -> usize {

@@ -88,7 +88,12 @@ pub(super) fn time_to_feature<T: Real>(
         && (setting.periodic.is_none() || has_just_left(setting, feature, center, flight.radius))
         && (flight.since > T::ZERO || !is_closing(feature, &flight, center));
     let acceleration = setting.plan.has_field.then_some(setting.gravity);
-    feature.contact_time(center, flight.velocity, acceleration, flight.radius, is_leaving)
+    let (velocity, radius) = (flight.velocity, flight.radius);
+    if is_leaving {
+        feature.hop_time(center, velocity, acceleration, radius)
+    } else {
+        feature.contact_time(center, velocity, acceleration, radius, false)
+    }
 }
 
 /// Whether a sphere that comes from a contact with some image of a feature

@@ -66,8 +66,6 @@ pub(super) fn begin_period<T: Real>(
     clock.end_period(end);
     (clock.period, clock.too_fast) = chosen_period(setting, store, longer);
     sort(setting, store);
-    let scales = scales(setting, store, clock);
-    store.screening.begin::<T>(&scales);
     place(setting, store, team, clock, T::ZERO);
 }
 
@@ -88,6 +86,8 @@ pub(super) fn place<T: Real>(
     store.agendas.clear();
     store.agendas.extend(store.records.iter().map(|record| Agenda::new(cell_of(record))));
     store.coarse.clear();
+    let scales = scales(setting, store, clock);
+    store.screening.begin::<T>(&scales);
     if store.screening.is_useful {
         let coarse = |record: &Record<T>| store.screening.record(&record.flight());
         store.coarse.extend(store.records.iter().map(coarse));

@@ -95,7 +95,7 @@ fn event<T: Real>(
         (Partner::Surroundings(setting.parts[contact.b as usize]), outcome.offset)
     };
     Event {
-        time: clock.time(setting.exact_dt) - contact.ago.to_f64(),
+        time: clock.time_before_end(setting.exact_dt, contact.ago.to_f64()),
         a: state.index[slot],
         partner,
         point: center - arm,

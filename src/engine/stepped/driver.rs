@@ -10,10 +10,14 @@ use super::record::Record;
 use super::region::Region;
 use super::resolve::resolve;
 use super::setting::Setting;
+#[cfg(feature = "files")]
+use super::snapshot;
 use crate::bodies::Bodies;
 use crate::engine::account::{Account, Totals};
 use crate::engine::interface::{Engine, StepEngine};
 use crate::engine::plan::{Plan, Turning};
+#[cfg(feature = "files")]
+use crate::engine::snapshot::{Misfit, Snapshot, State};
 use crate::engine::{EngineError, Execution, Listener};
 use crate::real::Real;
 use crate::scene::Scene;
@@ -81,11 +85,10 @@ fn take_step<T: Real>(
     account: &mut Account,
     record: Option<&mut Record<T>>,
 ) {
-    let lanes = setting.plan.sweep_lanes;
-    let travel = in_lanes!(sweep lanes, fly::<T>(setting, &mut region.state));
+    let travel = fly(setting, &mut region.state);
     clock.steps += 1;
     if setting.plan.turning == Turning::EachStep {
-        in_lanes!(sweep lanes, rotate::<T>(setting, &mut region.state));
+        rotate(setting, &mut region.state);
     }
     region.state.keep_count(clock.steps, setting.dt);
     if !setting.has_contacts() {
@@ -123,6 +126,21 @@ impl<T: Real> Engine<T> for Driver<T> {
 
     fn bodies(&self) -> Bodies<T> {
         self.region.state.bodies(self.clock.steps, self.setting.dt)
+    }
+
+    #[cfg(feature = "files")]
+    fn save(&self) -> Snapshot {
+        let state = State::Stepped(snapshot::save(&self.region, &self.clock));
+        Snapshot { account: self.account.clone(), state }
+    }
+
+    #[cfg(feature = "files")]
+    fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        let State::Stepped(state) = &saved.state else { return Err(Misfit("engine")) };
+        let start = self.bodies();
+        snapshot::restore(&self.setting, &mut self.region, &mut self.clock, start, state)?;
+        self.account.clone_from(&saved.account);
+        Ok(())
     }
 
     fn bytes(&self) -> usize {

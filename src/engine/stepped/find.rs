@@ -77,6 +77,16 @@ fn search<L: Lane<Scalar = T>, T: Real>(
             );
         }
     }
+    let shells = shells(nearby);
+    for (number, near) in chunk.at_parts(shells) {
+        let feature = (number, &setting.features[number as usize]);
+        touching_surroundings::<L, T>(state, detection, feature, near, found);
+    }
+}
+
+/// How many shells of the skin bodies can have come through.
+fn shells<T: Real>(nearby: &Nearby<T>) -> usize {
+    Candidates::shells_within(nearby.travelled + nearby.travelled, nearby.skin)
 }
 
 fn search_with<L: Lane<Scalar = T>, T: Real, R: Figure<T>>(
@@ -88,8 +98,7 @@ fn search_with<L: Lane<Scalar = T>, T: Real, R: Figure<T>>(
     chunk: &Chunk,
     found: &mut Vec<Contact<T>>,
 ) {
-    let shells = Candidates::shells_within(nearby.travelled + nearby.travelled, nearby.skin);
-    for pairs in &chunk.pairs[..shells] {
+    for pairs in &chunk.pairs[..shells(nearby)] {
         match setting.periodic {
             None => {
                 touching_pairs::<L, _, _, _, _>(state, detection, radius, OpenSpace, pairs, found);
@@ -98,9 +107,5 @@ fn search_with<L: Lane<Scalar = T>, T: Real, R: Figure<T>>(
                 touching_pairs::<L, _, _, _, _>(state, detection, radius, space, pairs, found);
             }
         }
-    }
-    for (number, near) in chunk.at_parts() {
-        let feature = (number, &setting.features[number as usize]);
-        touching_surroundings::<L, _, _, _>(state, detection, radius, feature, near, found);
     }
 }

@@ -2,6 +2,7 @@
 
 use core::slice::ChunksMut;
 
+use super::lanes::in_lanes;
 use super::setting::Setting;
 use super::state::{Low, State};
 use crate::lane::Lane;
@@ -16,7 +17,7 @@ const FLOWN: usize = 1 << 14;
 
 /// Flies all bodies through one step and returns how far any has moved at most,
 /// with a margin for the rounding.
-pub(super) fn fly<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, state: &mut State<T>) -> T {
+pub(super) fn fly<T: Real>(setting: &Setting<T>, state: &mut State<T>) -> T {
     let [mut x, mut y, mut z] = state.position.each_mut().map(|column| column.chunks_mut(FLOWN));
     let mut velocity = state.velocity.each_mut().map(|column| column.chunks_mut(FLOWN));
     let mut low = state.low.as_mut().map(|low| {
@@ -36,10 +37,8 @@ pub(super) fn fly<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, state: &mu
             position: position.each_mut().map(|column| &mut **column),
             velocity: velocity.each_mut().map(|column| &mut **column),
         });
-        *fastest = match setting.periodic {
-            None => fly_in::<L, T, _>(setting, position, velocity, remainders, OpenSpace),
-            Some(space) => fly_in::<L, T, _>(setting, position, velocity, remainders, space),
-        };
+        let lanes = setting.plan.sweep_lanes;
+        *fastest = in_lanes!(sweep lanes, fly_some::<T>(setting, position, velocity, remainders));
     });
     let fastest = chunks.iter().fold(T::ZERO, |most, chunk| chunk.3.greater(most));
     let field = setting.acceleration.map_or(T::ZERO, Vec3::length) * setting.dt;
@@ -52,6 +51,18 @@ fn next<'a, T>(columns: &mut [ChunksMut<'a, T>; 3]) -> [&'a mut [T]; 3] {
 }
 
 /// Flies some bodies through one step and returns the greatest `v·v`.
+fn fly_some<L: Lane<Scalar = T>, T: Real>(
+    setting: &Setting<T>,
+    position: [&mut [T]; 3],
+    velocity: [&mut [T]; 3],
+    remainders: Option<Remainders<'_, T>>,
+) -> T {
+    match setting.periodic {
+        None => fly_in::<L, T, _>(setting, position, velocity, remainders, OpenSpace),
+        Some(space) => fly_in::<L, T, _>(setting, position, velocity, remainders, space),
+    }
+}
+
 fn fly_in<L: Lane<Scalar = T>, T: Real, S: Wrap<T>>(
     setting: &Setting<T>,
     position: [&mut [T]; 3],
@@ -74,7 +85,7 @@ fn fly_in<L: Lane<Scalar = T>, T: Real, S: Wrap<T>>(
 }
 
 /// `M ← R M` for every body.
-pub(super) fn rotate<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, state: &mut State<T>) {
+pub(super) fn rotate<T: Real>(setting: &Setting<T>, state: &mut State<T>) {
     let Some(rows) = &mut state.orientation else { return };
     let mut rows = rows.each_mut().map(|row| row.chunks_mut(FLOWN));
     let mut spins = state.spin.each_ref().map(|column| column.chunks(FLOWN));
@@ -85,6 +96,12 @@ pub(super) fn rotate<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, state: 
         })
         .collect();
     setting.workers.each(&mut chunks, |(rows, spin)| {
-        turn::<L>(rows.each_mut().map(|row| &mut **row), *spin, setting.dt);
+        let rows = rows.each_mut().map(|row| &mut **row);
+        let lanes = setting.plan.sweep_lanes;
+        in_lanes!(sweep lanes, turn_some::<T>(rows, *spin, setting.dt));
     });
+}
+
+fn turn_some<L: Lane<Scalar = T>, T: Real>(rows: [&mut [T]; 9], spin: [&[T]; 3], dt: T) {
+    turn::<L>(rows, spin, dt);
 }

@@ -7,8 +7,9 @@ use super::state::State;
 use crate::bodies::PerBody;
 use crate::contact::{Impulse, Laws, Party, collide, one_material};
 use crate::lane::{Lane, Mask};
+use crate::motion::flight::Wrap;
 use crate::real::Real;
-use crate::space::Space;
+use crate::space::{OpenSpace, PeriodicBox, Space};
 use crate::surroundings::{Clearance, Feature};
 use crate::vec3::Vec3;
 
@@ -49,10 +50,11 @@ impl<T: Real> Outcome<T> {
     };
 }
 
-/// How the contacts of a scene are worked out; chosen once by the plan.
+/// How the contacts of a scene are worked out; chosen once by the plan. The space is
+/// looked at once a pack, so that it has no kernels of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Impacts<S, W> {
-    pub space: S,
+pub(super) struct Impacts<T, W> {
+    pub periodic: Option<PeriodicBox<T>>,
     pub laws: W,
     /// Whether contacts take effect at their own time, not at the step's end.
     pub within_step: bool,
@@ -76,42 +78,32 @@ impl Slots {
     }
 }
 
-impl<S, W> Impacts<S, W> {
+impl<T: Real, W: Laws<T>> Impacts<T, W> {
     /// The impulses of contacts between bodies.
-    pub fn pairs<L, T>(
+    pub fn pairs<L: Lane<Scalar = T>>(
         &self,
         state: &State<T>,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
-    ) where
-        L: Lane<Scalar = T>,
-        T: Real,
-        S: Space<T>,
-        W: Laws<T>,
-    {
+    ) {
         let whole = contacts.len() - contacts.len() % L::WIDTH;
         for start in (0..whole).step_by(L::WIDTH) {
             let range = start..start + L::WIDTH;
             let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
-            self.pack_of_pairs::<L, T>(state, now, after);
+            self.pack_of_pairs::<L>(state, now, after);
         }
         for k in whole..contacts.len() {
-            self.pack_of_pairs::<T, T>(state, &contacts[k..=k], &mut outcomes[k..=k]);
+            self.pack_of_pairs::<T>(state, &contacts[k..=k], &mut outcomes[k..=k]);
         }
     }
 
     #[inline(never)]
-    fn pack_of_pairs<L, T>(
+    fn pack_of_pairs<L: Lane<Scalar = T>>(
         &self,
         state: &State<T>,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
-    ) where
-        L: Lane<Scalar = T>,
-        T: Real,
-        S: Space<T>,
-        W: Laws<T>,
-    {
+    ) {
         let first = Slots::new(state, L::WIDTH, |k| contacts[k].a);
         let second = Slots::new(state, L::WIDTH, |k| contacts[k].b);
         let mut a = party::<L, T, W>(state, &first);
@@ -121,9 +113,11 @@ impl<S, W> Impacts<S, W> {
             let offset = gather::<L>(&state.position, &first.slots)
                 - gather::<L>(&state.position, &second.slots);
             let back = (a.velocity - b.velocity) * L::from_fn(|k| contacts[k].ago);
-            offset - self.space.shift(self.space.turns(offset - back)) - back
+            let image = |space: PeriodicBox<T>| offset - space.shift(space.turns(offset - back));
+            self.periodic.map_or(offset, image) - back
         } else {
-            offset::<L, T, S>(state, self.space, &first.slots, &second.slots)
+            let offset = offset(state, OpenSpace, &first.slots, &second.slots);
+            self.periodic.map_or(offset, |space| space.nearest(offset))
         };
         match &state.radius {
             PerBody::Same(_) => {
@@ -144,45 +138,35 @@ impl<S, W> Impacts<S, W> {
     }
 
     /// The impulses of contacts of bodies with one fixed feature.
-    pub fn surroundings<L, T>(
+    pub fn surroundings<L: Lane<Scalar = T>>(
         &self,
         state: &State<T>,
         path: &Path<T>,
         feature: &Feature<T>,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
-    ) where
-        L: Lane<Scalar = T>,
-        T: Real,
-        S: Space<T>,
-        W: Laws<T>,
-    {
+    ) {
         let whole = contacts.len() - contacts.len() % L::WIDTH;
         for start in (0..whole).step_by(L::WIDTH) {
             let range = start..start + L::WIDTH;
             let (now, after) = (&contacts[range.clone()], &mut outcomes[range]);
-            self.pack_at_feature::<L, T>(state, path, feature, now, after);
+            self.pack_at_feature::<L>(state, path, feature, now, after);
         }
         for k in whole..contacts.len() {
             let (now, after) = (&contacts[k..=k], &mut outcomes[k..=k]);
-            self.pack_at_feature::<T, T>(state, path, feature, now, after);
+            self.pack_at_feature::<T>(state, path, feature, now, after);
         }
     }
 
     #[inline(never)]
-    fn pack_at_feature<L, T>(
+    fn pack_at_feature<L: Lane<Scalar = T>>(
         &self,
         state: &State<T>,
         path: &Path<T>,
         feature: &Feature<T>,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
-    ) where
-        L: Lane<Scalar = T>,
-        T: Real,
-        S: Space<T>,
-        W: Laws<T>,
-    {
+    ) {
         let slots = Slots::new(state, L::WIDTH, |k| contacts[k].a);
         let mut a = party::<L, T, W>(state, &slots);
         a.share = L::ONE;
@@ -191,7 +175,8 @@ impl<S, W> Impacts<S, W> {
         if self.within_step {
             let ago = L::from_fn(|k| contacts[k].ago);
             let velocity = path.end_velocity(at_end);
-            center = self.space.wrap(path.center(center, velocity, ago));
+            center = path.center(center, velocity, ago);
+            center = self.periodic.map_or(center, |space| space.wrap(center));
             a.velocity = path.velocity(velocity, ago);
         }
         let at_contact = a.velocity;
@@ -205,7 +190,7 @@ impl<S, W> Impacts<S, W> {
             // At the very edge of a periodic box rounding may have chosen the
             // image at its other side.
             let mut least = gap.abs();
-            for image in self.space.images() {
+            for image in self.periodic.map_or(Vec::new(), Space::images) {
                 let other = feature.clearance(center + Vec3::splat(image), radius);
                 let is_nearer = is_beyond & other.gap.abs().lt(least);
                 least = L::select(is_nearer, other.gap.abs(), least);

@@ -31,10 +31,9 @@ pub(super) trait Detection<T: Real>: Copy + Send + Sync {
 
     /// Which of the bodies at these slots touch the numbered feature, and how long
     /// ago.
-    fn surroundings<L: Lane<Scalar = T>, R: Figure<T>>(
+    fn surroundings<L: Lane<Scalar = T>>(
         self,
         state: &State<T>,
-        radius: R,
         feature: (u32, &Feature<T>),
         bodies: &[u32],
     ) -> (L::Mask, L);
@@ -61,15 +60,14 @@ impl<T: Real> Detection<T> for AtEnd {
     }
 
     #[inline(always)]
-    fn surroundings<L: Lane<Scalar = T>, R: Figure<T>>(
+    fn surroundings<L: Lane<Scalar = T>>(
         self,
         state: &State<T>,
-        radius: R,
         (_, feature): (u32, &Feature<T>),
         bodies: &[u32],
     ) -> (L::Mask, L) {
         let center = gather::<L>(&state.position, bodies);
-        (feature.clearance(center, radius.gather::<L>(bodies)).gap.le(L::ZERO), L::ZERO)
+        (feature.clearance(center, state.radius.gather(bodies)).gap.le(L::ZERO), L::ZERO)
     }
 }
 
@@ -139,10 +137,9 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
     }
 
     #[inline(always)]
-    fn surroundings<L: Lane<Scalar = T>, R: Figure<T>>(
+    fn surroundings<L: Lane<Scalar = T>>(
         self,
         state: &State<T>,
-        radius: R,
         (number, feature): (u32, &Feature<T>),
         bodies: &[u32],
     ) -> (L::Mask, L) {
@@ -159,16 +156,14 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
             center = space.wrap(center);
             is_near = !space.is_inner(center, way);
         }
-        is_near = is_near | feature.clearance(center, radius.gather::<L>(bodies)).gap.le(way);
+        is_near = is_near | feature.clearance(center, state.radius.gather(bodies)).gap.le(way);
         if !is_near.any() {
             return (is_near, L::ZERO);
         }
         let near = is_near.bits();
         let ago = L::from_fn(|k| {
-            let contact = (near >> k & 1 != 0).then(|| {
-                let radius = radius.gather::<T>(&bodies[k..=k]);
-                self.contact_with(state, radius, (number, feature), bodies[k])
-            });
+            let is_near = near >> k & 1 != 0;
+            let contact = is_near.then(|| self.contact_with(state, (number, feature), bodies[k]));
             contact.flatten().unwrap_or(-T::ONE)
         });
         (ago.ge(L::splat(until)), ago)
@@ -190,11 +185,11 @@ impl<T: Real> WithinStep<'_, T> {
     fn contact_with(
         &self,
         state: &State<T>,
-        radius: T,
         (number, feature): (u32, &Feature<T>),
         slot: u32,
     ) -> Option<T> {
         let Self { path, stretch: Stretch { until, .. }, .. } = *self;
+        let radius = state.radius.of(slot as usize);
         let end = at(&state.position, slot as usize);
         let velocity = path.end_velocity(at(&state.velocity, slot as usize));
         let since = self.struck.since()[slot as usize];
@@ -269,41 +264,35 @@ fn sweep_pairs<L, T, D, R, S>(
 }
 
 /// The bodies near a feature that touch it, appended to `found`.
-pub(super) fn touching_surroundings<L, T, D, R>(
+pub(super) fn touching_surroundings<L: Lane<Scalar = T>, T: Real>(
     state: &State<T>,
-    detection: D,
-    radius: R,
-    (number, feature): (u32, &Feature<T>),
+    detection: impl Detection<T>,
+    feature: (u32, &Feature<T>),
     bodies: &[u32],
     found: &mut Vec<Contact<T>>,
-) where
-    L: Lane<Scalar = T>,
-    T: Real,
-    D: Detection<T>,
-    R: Figure<T>,
-{
+) {
     let (whole, tail) = bodies.split_at(bodies.len() - bodies.len() % L::WIDTH);
-    sweep_surroundings::<L, _, _, _>(state, detection, radius, (number, feature), whole, found);
-    sweep_surroundings::<T, _, _, _>(state, detection, radius, (number, feature), tail, found);
+    // Of many parts most have few bodies.
+    if !whole.is_empty() {
+        sweep_surroundings::<L, _>(state, detection, feature, whole, found);
+    }
+    if !tail.is_empty() {
+        sweep_surroundings::<T, _>(state, detection, feature, tail, found);
+    }
 }
 
+/// Whole packs of bodies, whose radii are looked at once a pack, so that equal ones
+/// have no kernel of their own.
 #[inline(never)]
-fn sweep_surroundings<L, T, D, R>(
+fn sweep_surroundings<L: Lane<Scalar = T>, T: Real>(
     state: &State<T>,
-    detection: D,
-    radius: R,
+    detection: impl Detection<T>,
     (number, feature): (u32, &Feature<T>),
     bodies: &[u32],
     found: &mut Vec<Contact<T>>,
-) where
-    L: Lane<Scalar = T>,
-    T: Real,
-    D: Detection<T>,
-    R: Figure<T>,
-{
+) {
     for bodies in bodies.chunks_exact(L::WIDTH) {
-        let (touching, ago) =
-            detection.surroundings::<L, R>(state, radius, (number, feature), bodies);
+        let (touching, ago) = detection.surroundings::<L>(state, (number, feature), bodies);
         push(touching, ago, found, |k| {
             (bodies[k], number, Rank::of_surroundings(state.index[bodies[k] as usize], number))
         });

@@ -30,7 +30,7 @@ impl Neighbourhoods {
     }
 
     /// Knows the candidates of this many bodies.
-    pub fn know(&mut self, candidates: &Candidates, len: usize) {
+    pub fn know<'a>(&mut self, candidates: &'a Candidates, len: usize) {
         if self.is_known {
             return;
         }
@@ -38,11 +38,9 @@ impl Neighbourhoods {
         let chunks = &candidates.chunks;
         let pairs = || chunks.iter().flat_map(|chunk| &chunk.pairs).flatten();
         self.bodies.fill(len, || pairs().flat_map(|&[a, b]| [[a, b], [b, a]]));
-        let at_part = |(part, bodies)| -> Vec<Pair> {
-            let bodies: &[u32] = bodies;
-            bodies.iter().map(|&body| [body, part]).collect()
-        };
-        self.parts.fill(len, || chunks.iter().flat_map(Chunk::at_parts).flat_map(at_part));
+        let at_part =
+            |(part, bodies): (u32, &'a [u32])| bodies.iter().map(move |&body| [body, part]);
+        self.parts.fill(len, || chunks.iter().flat_map(Chunk::at_all_parts).flat_map(at_part));
     }
 
     /// The bodies that the body in a slot can meet.

@@ -1,7 +1,11 @@
 //! Orientations: since when each body has been turning with its present spin.
 
+#[cfg(feature = "files")]
+use super::snapshot::Marks;
 use crate::column::Column;
 use crate::engine::plan::Turning;
+#[cfg(feature = "files")]
+use crate::engine::snapshot::{Misfit, Reals};
 use crate::real::Real;
 
 /// Steps after which the counters of all bodies start again.
@@ -28,6 +32,32 @@ impl<T: Real> Orientations<T> {
             ago: is_within_step.then(|| Column::new(len, T::ZERO)),
             counted_from: 0,
         }
+    }
+
+    /// What a snapshot keeps.
+    #[cfg(feature = "files")]
+    pub fn save(&self) -> Marks {
+        Marks {
+            step: self.step.clone(),
+            ago: self.ago.as_ref().map(|column| Reals::of(column.iter().copied())),
+            counted_from: self.counted_from,
+        }
+    }
+
+    /// Goes on with what a snapshot has kept.
+    #[cfg(feature = "files")]
+    pub fn restore(&mut self, saved: &Marks) -> Result<(), Misfit> {
+        if saved.step.len() != self.step.len() {
+            return Err(Misfit("orientations"));
+        }
+        match (&mut self.ago, &saved.ago) {
+            (None, None) => {}
+            (Some(column), Some(ago)) => *column = ago.column(column.len(), "orientations")?,
+            _ => return Err(Misfit("orientations")),
+        }
+        self.step.clone_from(&saved.step);
+        self.counted_from = saved.counted_from;
+        Ok(())
     }
 
     /// How long body `index` has been turning since its stored orientation, a

@@ -13,7 +13,6 @@ use crate::contact::{Laws, with_law};
 use crate::engine::account::Account;
 use crate::lane::Lane;
 use crate::real::Real;
-use crate::space::{OpenSpace, Space};
 
 /// Contacts worked out as one piece of work.
 const IMPACTS: usize = 1024;
@@ -80,26 +79,25 @@ pub(super) fn impulses_of_kind<L: Lane<Scalar = T>, T: Real>(
     contacts: &[Contact<T>],
     outcomes: &mut [Outcome<T>],
 ) {
-    with_law!(setting.plan.surface, law => match setting.periodic {
-        None => impulses_in::<L, T, _, _>(setting, state, OpenSpace, law, contacts, outcomes),
-        Some(space) => impulses_in::<L, T, _, _>(setting, state, space, law, contacts, outcomes),
+    with_law!(setting.plan.surface, law => {
+        impulses_by::<L, T, _>(setting, state, law, contacts, outcomes);
     });
 }
 
-fn impulses_in<L: Lane<Scalar = T>, T: Real, S: Space<T>, W: Laws<T>>(
+fn impulses_by<L: Lane<Scalar = T>, T: Real, W: Laws<T>>(
     setting: &Setting<T>,
     state: &State<T>,
-    space: S,
     laws: W,
     contacts: &[Contact<T>],
     outcomes: &mut [Outcome<T>],
 ) {
-    let impacts = Impacts { space, laws, within_step: setting.is_within_step() };
+    let (periodic, within_step) = (setting.periodic, setting.is_within_step());
+    let impacts = Impacts { periodic, laws, within_step };
     let Some(first) = contacts.first() else { return };
     if first.rank.is_pair() {
-        impacts.pairs::<L, T>(state, contacts, outcomes);
+        impacts.pairs::<L>(state, contacts, outcomes);
     } else {
         let feature = &setting.features[first.b as usize];
-        impacts.surroundings::<L, T>(state, &setting.path, feature, contacts, outcomes);
+        impacts.surroundings::<L>(state, &setting.path, feature, contacts, outcomes);
     }
 }

@@ -47,7 +47,7 @@ pub(super) struct State<T: Real> {
     pub inertia: PerBody<T>,
     /// `1/I` by index.
     pub inverse_inertia: PerBody<T>,
-    orientations: Orientations<T>,
+    pub orientations: Orientations<T>,
     spare: Column<T>,
 }
 
@@ -171,18 +171,20 @@ impl<T: Real> State<T> {
             .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
     }
 
+    /// Columns by slot in the scene's order.
+    pub fn by_index(&self, columns: &Columns3<T>) -> Columns3<T> {
+        core::array::from_fn(|axis| {
+            let mut ordered = Column::new(self.index.len(), T::ZERO);
+            for (&value, &index) in columns[axis].iter().zip(&self.index) {
+                ordered[index as usize] = value;
+            }
+            ordered
+        })
+    }
+
     /// The bodies in the scene's order at the end of step `steps`.
     pub fn bodies(&self, steps: u64, dt: T) -> Bodies<T> {
         let len = self.index.len();
-        let ordered = |columns: &Columns3<T>| -> Columns3<T> {
-            core::array::from_fn(|axis| {
-                let mut ordered = Column::new(len, T::ZERO);
-                for (&value, &index) in columns[axis].iter().zip(&self.index) {
-                    ordered[index as usize] = value;
-                }
-                ordered
-            })
-        };
         let radius = match &self.radius {
             PerBody::Same(radius) => PerBody::Same(*radius),
             PerBody::Each(radii) => {
@@ -194,8 +196,8 @@ impl<T: Real> State<T> {
             }
         };
         let mut bodies = Bodies {
-            position: ordered(&self.position),
-            velocity: ordered(&self.velocity),
+            position: self.by_index(&self.position),
+            velocity: self.by_index(&self.velocity),
             spin: self.spin.clone(),
             orientation: None,
             radius,

@@ -1,5 +1,8 @@
 //! Exact sum: the sum of doubles, whatever their order.
 
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
 /// Binary digits of a limb.
 const DIGITS: u32 = 32;
 
@@ -22,6 +25,8 @@ const MOST_PENDING: u32 = 1 << 30;
 /// assert_eq!(sum.value(), 1.0);
 /// ```
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(into = "Digits", try_from = "Digits"))]
 pub struct ExactSum {
     /// Digits from that of 2⁻¹⁰⁷⁴ on, each limb with those that it has to pass on.
     limbs: [i64; LIMBS],
@@ -113,6 +118,35 @@ impl ExactSum {
         let [one, other] = [exponent / 2, exponent - exponent / 2].map(|k| 2.0_f64.powi(k));
         let magnitude = digits as f64 * one * other;
         if is_negative { -magnitude } else { magnitude }
+    }
+}
+
+/// What files keep of a sum: its limbs, and the sum of the terms that are not finite.
+#[cfg(feature = "files")]
+#[derive(Serialize, Deserialize)]
+struct Digits(Vec<i64>, f64);
+
+#[cfg(feature = "files")]
+impl From<ExactSum> for Digits {
+    fn from(mut sum: ExactSum) -> Self {
+        sum.carry();
+        Self(sum.limbs.to_vec(), sum.boundless)
+    }
+}
+
+#[cfg(feature = "files")]
+impl TryFrom<Digits> for ExactSum {
+    type Error = &'static str;
+
+    fn try_from(Digits(limbs, boundless): Digits) -> Result<Self, Self::Error> {
+        let limbs: [i64; LIMBS] = limbs.try_into().map_err(|_| "a sum of another length")?;
+        let is_carried = |limb: &i64| (0..1 << DIGITS).contains(limb);
+        let is_last = |limb: &i64| limb.unsigned_abs() < 1 << DIGITS;
+        let (others, last) = limbs.split_at(LIMBS - 1);
+        if !others.iter().all(is_carried) || !last.iter().all(is_last) {
+            return Err("a sum that has more digits than sums have");
+        }
+        Ok(Self { limbs, pending: 1, boundless })
     }
 }
 

@@ -15,6 +15,7 @@ use super::two_sum;
 /// assert_eq!(terms.into_iter().collect::<CompensatedSum>().value(), 2.0);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "files", derive(serde::Serialize, serde::Deserialize))]
 pub struct CompensatedSum {
     sum: f64,
     rounded_off: f64,

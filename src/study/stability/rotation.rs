@@ -141,11 +141,8 @@ fn errors<T: Studied>(
         for (k, &(m, spin)) in runs.iter().enumerate() {
             let found = step(k);
             if is_looked_at {
-                let found = exact_matrix(found);
-                let time = T::ratio(1, 100).cast::<T::Judge>() * T::Judge::whole(n);
-                let expected = reference_rotation(spin.cast(), time) * exact_matrix(m);
-                worst[0] = greatest([worst[0], distance(found.transpose() * found)]);
-                worst[1] = greatest([worst[1], angle_between(found, expected)]);
+                let errors = errors_after(found, n, (m, spin));
+                worst = core::array::from_fn(|k| greatest([worst[k], errors[k]]));
             }
         }
         if is_looked_at {
@@ -167,6 +164,15 @@ fn errors<T: Studied>(
             Curve::new(T::PRECISION, name, points)
         })
         .into()
+}
+
+/// What has come of an orientation and a spin after this many steps: `‖MᵗM − 1‖` and
+/// the angle off.
+fn errors_after<T: Studied>(found: Mat3<T>, steps: i32, (m, spin): (Mat3<T>, Vec3<T>)) -> [f64; 2] {
+    let found = exact_matrix(found);
+    let time = T::ratio(1, 100).cast::<T::Judge>() * T::Judge::whole(steps);
+    let expected = reference_rotation(spin.cast(), time) * exact_matrix(m);
+    [distance(found.transpose() * found), angle_between(found, expected)]
 }
 
 fn exact_matrix<T: Studied>(m: Mat3<T>) -> Mat3<T::Judge> {

@@ -1,0 +1,121 @@
+//! `carom plot`: a time series as a picture.
+
+use std::path::Path;
+
+use carom::output::write_whole;
+use carom::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
+
+use super::arguments::PlotArguments;
+use super::failure::Failure;
+use super::output_file::{Destination, OutputError};
+
+/// Columns that are drawn in one chart, with what it shows. All others have a chart of
+/// their own.
+const TOGETHER: [(&str, &[&str]); 6] = [
+    ("energy", &["energy", "kinetic", "translational", "rotational", "potential"]),
+    ("momentum", &["px", "py", "pz"]),
+    ("temperature", &["temperature", "spin_temperature"]),
+    ("collisions", &["pairs", "surroundings"]),
+    ("force", &["force_x", "force_y", "force_z"]),
+    ("centre of mass", &["center_x", "center_y", "center_z"]),
+];
+
+/// The columns of a file, each with its name.
+type Columns = Vec<(String, Vec<Option<f64>>)>;
+
+/// Draws a file.
+pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
+    let path = &arguments.file;
+    let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("svg"));
+    if output.extension().is_none_or(|ending| ending != "svg") {
+        let output = output.display();
+        return Err(Failure::Argument(format!("-o is {output}; its ending must be .svg")));
+    }
+    let refused = |source| Failure::Open { option: "-o", source };
+    let Destination::Regular(target) = Destination::of(&output).map_err(refused)? else {
+        let output = output.display();
+        return Err(Failure::Argument(format!("-o is {output}, no file that can be replaced")));
+    };
+    let mut columns = read(path)?;
+    let (time, values) = columns[0].clone();
+    if arguments.columns.is_empty() {
+        columns.remove(0);
+    }
+    let columns = chosen(columns, &arguments.columns, path)?;
+    let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
+    let svg = Picture { charts: charts(&title, &time, &values, &columns) }.svg();
+    let svg = svg.map_err(|reason| refused(OutputError::Path { path: output.clone(), reason }))?;
+    let written = write_whole(&target, svg.as_bytes());
+    written.map_err(|source| OutputError::Write { path: output, source }.into())
+}
+
+/// All columns; a field that is no number is `None`.
+fn read(path: &Path) -> Result<Columns, Failure> {
+    let failed = |reason: String| Failure::Argument(format!("{}: {reason}", path.display()));
+    let mut reader = csv::Reader::from_path(path).map_err(|error| failed(error.to_string()))?;
+    let names = reader.headers().map_err(|error| failed(error.to_string()))?.clone();
+    let mut columns: Columns = names.iter().map(|name| (name.to_owned(), Vec::new())).collect();
+    for record in reader.records() {
+        let record = record.map_err(|error| failed(error.to_string()))?;
+        for ((_, column), field) in columns.iter_mut().zip(&record) {
+            column.push(field.parse().ok().filter(|value: &f64| value.is_finite()));
+        }
+    }
+    if columns.len() < 2 || columns[0].1.iter().flatten().next().is_none() {
+        let wanted = "it must have names in its first line and at least two columns of numbers, the \
+                      first one the time, as `carom run --series` writes it";
+        return Err(failed(wanted.to_owned()));
+    }
+    Ok(columns)
+}
+
+/// The columns that are asked for, or all with a number in them.
+fn chosen(columns: Columns, names: &[String], path: &Path) -> Result<Columns, Failure> {
+    if names.is_empty() {
+        let has_numbers = |column: &[Option<f64>]| column.iter().any(Option::is_some);
+        return Ok(columns.into_iter().filter(|(_, column)| has_numbers(column)).collect());
+    }
+    let known = || columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", ");
+    let find = |name: &String| {
+        columns.iter().find(|(other, _)| other == name).cloned().ok_or_else(|| {
+            let path = path.display();
+            Failure::Argument(format!(
+                "--columns: {path} has no column {name:?}; it has {}",
+                known()
+            ))
+        })
+    };
+    names.iter().map(find).collect()
+}
+
+/// A chart for each kind of figure, in the order of the columns.
+fn charts(
+    title: &str,
+    time: &str,
+    values: &[Option<f64>],
+    columns: &[(String, Vec<Option<f64>>)],
+) -> Vec<Chart> {
+    let mut charts: Vec<Chart> = Vec::new();
+    for (name, column) in columns {
+        let together = TOGETHER.iter().find(|(_, names)| names.contains(&name.as_str()));
+        let label = together.map_or(name.as_str(), |(label, _)| label);
+        let own = charts.iter().position(|chart| chart.y.label == label).unwrap_or(charts.len());
+        if own == charts.len() {
+            charts.push(Chart {
+                title: title.to_owned(),
+                x: Axis::new(time, Scale::Linear),
+                y: Axis::new(label, Scale::Linear),
+                series: Vec::new(),
+            });
+        }
+        let series = &mut charts[own].series;
+        let points = values.iter().zip(column).filter_map(|(time, value)| time.zip(*value));
+        series.push(Series {
+            name: name.clone(),
+            color: Some(series.len()),
+            mark: Mark::Line,
+            points: points.collect(),
+        });
+    }
+    charts
+}

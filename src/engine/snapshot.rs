@@ -1,0 +1,119 @@
+//! Snapshot: all that a run has to remember at a moment, so that it can go on as if
+//! it had never stopped.
+//!
+//! What follows from the scene is not kept, and what can be found again is not either:
+//! candidates, cells, agendas.
+
+use serde::{Deserialize, Serialize};
+
+use super::account::Account;
+use super::event_driven::EventState;
+use super::stepped::StepState;
+use crate::bodies::Columns3;
+use crate::column::Column;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The state of a world at a moment, without its scene. It is plain data for any
+/// serialiser of serde.
+///
+/// ```
+/// use carom::engine::{Snapshot, World};
+/// use carom::{Execution, SceneFile, state_hash};
+///
+/// let file = SceneFile::builtin("superball").ok_or("no such scene")?;
+/// let mut world = World::new(file.build::<f64>()?, Execution::default())?;
+/// world.advance(0.5)?;
+/// let snapshot: Snapshot = world.snapshot();
+/// world.advance(0.5)?;
+/// // Any number of times, on other threads and lanes, in another program.
+/// let mut again = World::resume(file.build::<f64>()?, Execution::new().threads(1), &snapshot)?;
+/// assert_eq!(again.time(), 0.5);
+/// again.advance(0.5)?;
+/// assert_eq!(state_hash(&again.bodies()), state_hash(&world.bodies()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Snapshot {
+    pub(super) account: Account,
+    pub(super) state: State,
+}
+
+/// The state of either engine.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) enum State {
+    Stepped(StepState),
+    EventDriven(EventState),
+}
+
+/// Numbers of one precision, bit by bit.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) enum Reals {
+    Single(Vec<f32>),
+    Double(Vec<f64>),
+    /// A number and what it leaves out.
+    Pairs(Vec<[f64; 2]>),
+}
+
+/// A snapshot of another scene, engine or precision: which figure does not fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Misfit(pub &'static str);
+
+impl Reals {
+    pub fn of<T: Real>(values: impl IntoIterator<Item = T>) -> Self {
+        let values = values.into_iter();
+        match T::NAME {
+            "f32" => Self::Single(values.map(|value| value.to_f64() as f32).collect()),
+            "f64" => Self::Double(values.map(Real::to_f64).collect()),
+            _ => Self::Pairs(
+                values
+                    .map(|value| {
+                        let rounded = value.to_f64();
+                        [rounded, (value - T::from_f64(rounded)).to_f64()]
+                    })
+                    .collect(),
+            ),
+        }
+    }
+
+    /// The numbers, if they are of this precision and as many.
+    pub fn read<T: Real>(&self, count: usize, what: &'static str) -> Result<Vec<T>, Misfit> {
+        let values: Vec<T> = match (self, T::NAME) {
+            (Self::Single(values), "f32") => {
+                values.iter().map(|&value| T::from_f64(f64::from(value))).collect()
+            }
+            (Self::Double(values), "f64") => values.iter().copied().map(T::from_f64).collect(),
+            (Self::Pairs(values), name) if !["f32", "f64"].contains(&name) => {
+                values.iter().map(|&[high, low]| T::from_f64(high) + T::from_f64(low)).collect()
+            }
+            _ => return Err(Misfit("precision")),
+        };
+        if values.len() == count { Ok(values) } else { Err(Misfit(what)) }
+    }
+
+    pub fn column<T: Real>(&self, count: usize, what: &'static str) -> Result<Column<T>, Misfit> {
+        Ok(Column::from(self.read::<T>(count, what)?.as_slice()))
+    }
+}
+
+/// Three columns of numbers.
+pub(super) type Reals3 = [Reals; 3];
+
+/// What is kept of three columns.
+pub(super) fn reals3<T: Real>(columns: &Columns3<T>) -> Reals3 {
+    columns.each_ref().map(|column| Reals::of(column.iter().copied()))
+}
+
+/// Three columns again.
+pub(super) fn columns3<T: Real>(
+    [x, y, z]: &Reals3,
+    count: usize,
+    what: &'static str,
+) -> Result<Columns3<T>, Misfit> {
+    Ok([x.column(count, what)?, y.column(count, what)?, z.column(count, what)?])
+}
+
+/// What is kept of vectors, a column for each axis.
+pub(super) fn reals3_of<T: Real>(vectors: impl Iterator<Item = Vec3<T>> + Clone) -> Reals3 {
+    core::array::from_fn(|axis| Reals::of(vectors.clone().map(|vector| vector.to_array()[axis])))
+}

@@ -1,0 +1,128 @@
+//! Figures: what a frame says of each body, in the terms of the formats.
+
+use std::collections::HashMap;
+
+use super::Frame;
+use crate::bodies::{Bodies, PerBody};
+use crate::mat3::Mat3;
+use crate::real::Real;
+
+/// The most kinds of bodies that have types of their own; where there are more, all have one.
+const MOST_KINDS: usize = 64;
+
+/// The kind of each body, from 1 in the order in which they appear: those of one kind
+/// have one radius and one mass.
+pub fn kinds<T: Real>(bodies: &Bodies<T>) -> Vec<u32> {
+    if let (PerBody::Same(_), PerBody::Same(_)) = (&bodies.radius, &bodies.mass) {
+        return vec![1; bodies.len()];
+    }
+    let mut known: HashMap<[u64; 2], u32> = HashMap::new();
+    let mut kinds = Vec::with_capacity(bodies.len());
+    for index in 0..bodies.len() {
+        let figures = [bodies.radius.of(index), bodies.mass.of(index)];
+        let next = known.len() as u32 + 1;
+        kinds.push(*known.entry(figures.map(|figure| figure.to_f64().to_bits())).or_insert(next));
+        if known.len() > MOST_KINDS {
+            return vec![1; bodies.len()];
+        }
+    }
+    kinds
+}
+
+/// The corners of the periodic box, or of the box around all bodies.
+pub fn bounds<T: Real>(frame: &Frame<'_, T>) -> [[T; 3]; 2] {
+    if let Some(space) = frame.space {
+        return [space.lower.to_array(), space.upper.to_array()];
+    }
+    let bodies = frame.bodies;
+    let mut corners = [[T::ZERO; 3]; 2];
+    for (axis, column) in bodies.position.iter().enumerate() {
+        for (index, &x) in column.iter().enumerate() {
+            let radius = bodies.radius.of(index);
+            let (least, greatest) = (x - radius, x + radius);
+            let [lower, upper] = &mut corners;
+            let is_first = index == 0;
+            lower[axis] = if is_first { least } else { lower[axis].lesser(least) };
+            upper[axis] = if is_first { greatest } else { upper[axis].greater(greatest) };
+        }
+    }
+    corners
+}
+
+/// The orientation of a body as a unit quaternion.
+pub fn quaternion_of<T: Real>(bodies: &Bodies<T>, index: usize) -> [T; 4] {
+    match bodies.orientation {
+        None => [T::ONE, T::ZERO, T::ZERO, T::ZERO],
+        Some(_) => quaternion(bodies.orientation_of(index)),
+    }
+}
+
+/// The unit quaternion w, x, y, z of a rotation, w not negative.
+///
+/// Of the four ways to find it, each of which divides by one component, the one by the
+/// greatest (Shepperd 1978).
+fn quaternion<T: Real>(rotation: Mat3<T>) -> [T; 4] {
+    let m: [f64; 9] = rotation.rows().map(Real::to_f64);
+    let trace = m[0] + m[4] + m[8];
+    // Each is 4 q_k q_j, with the greatest q_k.
+    let products = if trace >= m[0].max(m[4]).max(m[8]) {
+        [1.0 + trace, m[7] - m[5], m[2] - m[6], m[3] - m[1]]
+    } else if m[0] >= m[4].max(m[8]) {
+        [m[7] - m[5], 1.0 + m[0] - m[4] - m[8], m[1] + m[3], m[2] + m[6]]
+    } else if m[4] >= m[8] {
+        [m[2] - m[6], m[1] + m[3], 1.0 - m[0] + m[4] - m[8], m[5] + m[7]]
+    } else {
+        [m[3] - m[1], m[2] + m[6], m[5] + m[7], 1.0 - m[0] - m[4] + m[8]]
+    };
+    let length = products.iter().map(|q| q * q).sum::<f64>().sqrt();
+    let length = if products[0] < 0.0 { -length } else { length };
+    // Adding 0 takes the sign off a zero.
+    products.map(|q| T::from_f64(q / length + 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quaternion_turns_as_its_matrix() {
+        // One rotation for each component that can be the greatest.
+        let tests: [[f64; 4]; 5] = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.5, -0.5, 0.5, 0.5],
+            [0.1, 0.7, -0.5, 0.5],
+            [0.0, 0.1, 0.9, -0.3],
+            [0.2, 0.1, 0.3, -0.9],
+        ];
+        for given in tests {
+            let length = given.iter().map(|q| q * q).sum::<f64>().sqrt();
+            let [w, x, y, z] = given.map(|q| q / length);
+            let rows = [
+                1.0 - 2.0 * (y * y + z * z),
+                2.0 * (x * y - w * z),
+                2.0 * (x * z + w * y),
+                2.0 * (x * y + w * z),
+                1.0 - 2.0 * (x * x + z * z),
+                2.0 * (y * z - w * x),
+                2.0 * (x * z - w * y),
+                2.0 * (y * z + w * x),
+                1.0 - 2.0 * (x * x + y * y),
+            ];
+            let found = quaternion(Mat3::<f64>::from_rows(rows));
+            for (found, given) in found.iter().zip([w, x, y, z]) {
+                approx::assert_abs_diff_eq!(*found, given, epsilon = 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn kinds_are_counted_as_they_appear() {
+        let positions: Vec<[f64; 3]> = (0..100).map(|k| [3.0 * f64::from(k), 0.0, 0.0]).collect();
+        let radii: Vec<f64> = (0..100).map(|k| [1.0, 0.5, 1.0][k % 3]).collect();
+        let few = Bodies::from_positions(&positions).radii(&radii).build().unwrap();
+        assert_eq!(kinds(&few)[..4], [1, 2, 1, 1]);
+        let radii: Vec<f64> = (0..100).map(|k| 1.0 - 0.001 * f64::from(k)).collect();
+        let many = Bodies::from_positions(&positions).radii(&radii).build().unwrap();
+        assert_eq!(kinds(&many), vec![1; 100]);
+    }
+}

@@ -1,0 +1,195 @@
+//! Time series: figures of a run at times, as comma-separated values.
+
+use std::io;
+
+use super::{CsvLine, as_io, csv_writer};
+use crate::observe::Sample;
+
+/// What a row is made of.
+#[derive(Clone, Copy, Debug)]
+struct Row<'a> {
+    now: &'a Sample,
+    before: Option<&'a Sample>,
+    volume: Option<f64>,
+}
+
+/// A column of a time series.
+#[derive(Clone, Copy, Debug)]
+pub struct SeriesColumn {
+    name: &'static str,
+    figure: fn(&Row<'_>) -> Option<f64>,
+}
+
+/// Names a column and says what is in it.
+macro_rules! columns {
+    ($($name:literal: $figure:expr,)*) => {
+        &[$(SeriesColumn { name: $name, figure: $figure }),*]
+    };
+}
+
+/// All columns.
+const COLUMNS: &[SeriesColumn] = columns! {
+    "time": |row| Some(row.now.time),
+    "energy": |row| Some(row.now.energy.total()),
+    "kinetic": |row| Some(row.now.energy.kinetic()),
+    "translational": |row| Some(row.now.energy.translational),
+    "rotational": |row| Some(row.now.energy.rotational),
+    "potential": |row| Some(row.now.energy.potential),
+    "px": |row| Some(row.now.momentum.0.x),
+    "py": |row| Some(row.now.momentum.0.y),
+    "pz": |row| Some(row.now.momentum.0.z),
+    "temperature": |row| Some(row.now.temperature?.translational),
+    "spin_temperature": |row| Some(row.now.temperature?.rotational),
+    "pairs": |row| Some(row.now.collisions.pairs as f64),
+    "surroundings": |row| Some(row.now.collisions.surroundings as f64),
+    "collision_rate": |row| row.now.rate_since(row.before?),
+    "surroundings_rate": |row| row.now.surroundings_rate_since(row.before?),
+    "compressibility": |row| {
+        row.volume?;
+        row.now.compressibility_since(row.before?)
+    },
+    "pressure": |row| row.now.pressure_since(row.before?, row.volume?),
+    "force_x": |row| Some(row.now.force_since(row.before?)?[0]),
+    "force_y": |row| Some(row.now.force_since(row.before?)?[1]),
+    "force_z": |row| Some(row.now.force_since(row.before?)?[2]),
+    "center_x": |row| Some(row.now.center[0]),
+    "center_y": |row| Some(row.now.center[1]),
+    "center_z": |row| Some(row.now.center[2]),
+};
+
+impl SeriesColumn {
+    /// The names of all columns, in their order: time, energies, momentum, temperatures
+    /// (from two bodies on), collisions since the start, rates, compressibility factor and
+    /// pressure (in a periodic box) and the force of the surroundings on the bodies since
+    /// the row before, and the centre of mass.
+    ///
+    /// ```
+    /// use carom::output::SeriesColumn;
+    /// assert_eq!(SeriesColumn::names().next(), Some("time"));
+    /// ```
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        COLUMNS.iter().map(|column| column.name)
+    }
+
+    /// All columns.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        COLUMNS.to_vec()
+    }
+
+    /// The column of that name, if there is one.
+    ///
+    /// ```
+    /// use carom::output::SeriesColumn;
+    /// assert!(SeriesColumn::named("pressure").is_some());
+    /// assert!(SeriesColumn::named("presure").is_none());
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        COLUMNS.iter().find(|column| column.name == name).copied()
+    }
+}
+
+/// Writes samples as comma-separated values under the names of columns. A figure that
+/// means nothing leaves its field empty: rates and what is made of them in the first row,
+/// the pressure in open space.
+///
+/// ```
+/// use carom::observe::Sample;
+/// use carom::output::{SeriesColumn, SeriesWriter};
+/// use carom::{Execution, Scene, Sphere};
+/// use carom::engine::World;
+///
+/// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+/// let scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+/// let mut world = World::new(scene, Execution::default())?;
+/// let columns = ["time", "energy", "pairs", "collision_rate"];
+/// let columns = columns.into_iter().filter_map(SeriesColumn::named).collect();
+/// let mut series = SeriesWriter::new(Vec::new(), columns, None)?;
+/// series.row(Sample::of(&world, &world.bodies(), None))?;
+/// world.advance(1.0)?;
+/// series.row(Sample::of(&world, &world.bodies(), None))?;
+/// let text = String::from_utf8(series.finish()?)?;
+/// assert_eq!(text, "time,energy,pairs,collision_rate\n0.0,1.0,0,\n1.0,1.0,1,1.0\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct SeriesWriter<W: io::Write> {
+    writer: csv::Writer<W>,
+    line: CsvLine,
+    columns: Vec<SeriesColumn>,
+    volume: Option<f64>,
+    before: Option<Sample>,
+}
+
+impl<W: io::Write> SeriesWriter<W> {
+    /// Starts with the names of the columns. `volume` is that of a periodic box, length³.
+    ///
+    /// # Errors
+    /// If the output takes nothing.
+    pub fn new(output: W, columns: Vec<SeriesColumn>, volume: Option<f64>) -> io::Result<Self> {
+        let mut writer = csv_writer(output);
+        writer.write_record(columns.iter().map(|column| column.name)).map_err(as_io)?;
+        Ok(Self { writer, line: CsvLine::default(), columns, volume, before: None })
+    }
+
+    /// Goes on after other rows, without the names of the columns.
+    #[must_use]
+    pub fn further(output: W, columns: Vec<SeriesColumn>, volume: Option<f64>) -> Self {
+        let writer = csv_writer(output);
+        Self { writer, line: CsvLine::default(), columns, volume, before: None }
+    }
+
+    /// Rates of the next row are of the time since this sample.
+    #[must_use]
+    pub fn after(self, before: Option<Sample>) -> Self {
+        Self { before, ..self }
+    }
+
+    /// Hands all rows so far on to the output.
+    ///
+    /// # Errors
+    /// If the output takes no more.
+    pub fn flush(&mut self) -> io::Result<&W> {
+        self.writer.flush()?;
+        Ok(self.writer.get_ref())
+    }
+
+    /// The sample of the last row.
+    #[must_use]
+    pub fn last(&self) -> Option<Sample> {
+        self.before
+    }
+
+    /// Writes a sample, which is later than the one before.
+    ///
+    /// # Errors
+    /// If the output takes no more, or if a figure is no finite number
+    /// ([`InvalidData`](io::ErrorKind::InvalidData)).
+    pub fn row(&mut self, sample: Sample) -> io::Result<()> {
+        let row = Row { now: &sample, before: self.before.as_ref(), volume: self.volume };
+        for column in &self.columns {
+            match (column.figure)(&row) {
+                None => self.line.empty(1),
+                Some(value) if !value.is_finite() => {
+                    let message = format!("{} is no longer finite", column.name);
+                    return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+                }
+                Some(value) if ["pairs", "surroundings"].contains(&column.name) => {
+                    self.line.shown(value);
+                }
+                Some(value) => self.line.numbers([value]),
+            }
+        }
+        self.before = Some(sample);
+        self.line.finish(&mut self.writer)
+    }
+
+    /// Writes what is left, and gives the output back.
+    ///
+    /// # Errors
+    /// If the output takes no more.
+    pub fn finish(self) -> io::Result<W> {
+        self.writer.into_inner().map_err(csv::IntoInnerError::into_error)
+    }
+}

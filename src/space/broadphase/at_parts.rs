@@ -1,0 +1,231 @@
+//! At parts: the bodies that may touch something fixed.
+//!
+//! Parts do not move: a body that is not within half of the skin of one cannot touch
+//! it before the next search.
+
+use core::ops::Range;
+
+use super::candidates::{Chunk, SHELLS, shell};
+use crate::bodies::{Figure, PerBody};
+use crate::lane::{Lane, Mask};
+use crate::real::Real;
+use crate::space::{Bounds, FixedParts, Tree, joined};
+use crate::vec3::Vec3;
+
+/// So few fixed parts are each tested against all bodies; of more, the tree says
+/// which are near.
+pub(super) const FEW_PARTS: usize = 8;
+
+/// The tree is asked for a group of bodies at once that stand one after the other: so
+/// many at most, in a box that is at most so much wider than that of the first one.
+const GROUP: usize = 8;
+const COMPACT: i32 = 12;
+
+/// Bodies near fixed parts, part by part.
+#[derive(Debug, Default)]
+pub(super) struct AtParts {
+    bodies: Vec<u32>,
+    /// Each part, and where its bodies end.
+    parts: Vec<(u32, usize)>,
+}
+
+impl AtParts {
+    pub fn clear(&mut self) {
+        self.bodies.clear();
+        self.parts.clear();
+    }
+
+    pub fn len(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// Adds a body to the last part, or begins another one.
+    pub fn push(&mut self, part: u32, body: u32) {
+        self.bodies.push(body);
+        let end = self.bodies.len();
+        match self.parts.last_mut() {
+            Some(last) if last.0 == part => last.1 = end,
+            _ => self.parts.push((part, end)),
+        }
+    }
+
+    /// The parts and their bodies.
+    pub fn each(&self) -> impl Iterator<Item = (u32, &[u32])> {
+        let mut start = 0;
+        self.parts.iter().map(move |&(part, end)| {
+            let bodies = &self.bodies[start..end];
+            start = end;
+            (part, bodies)
+        })
+    }
+
+    pub fn bytes(&self) -> usize {
+        self.bodies.capacity() * size_of::<u32>()
+            + self.parts.capacity() * size_of::<(u32, usize)>()
+    }
+}
+
+/// A part, a body whose image comes near its box, and the number of the image.
+type Near = (u32, u32, u32);
+
+/// A search for bodies at parts in progress. Radii and space are looked at once a
+/// body, so that they have no kernels of their own.
+pub(super) struct PartSearch<'a, T: Real, P: ?Sized> {
+    pub position: [&'a [T]; 3],
+    pub radius: &'a PerBody<T>,
+    /// From a point to itself and to its images in the periodic box: a body may be
+    /// near a part where the box puts it when it leaves.
+    pub images: &'a [Vec3<T>],
+    pub skin: T,
+    pub shell_ends: [T; SHELLS - 1],
+    pub parts: &'a P,
+    pub tree: &'a Tree<T>,
+}
+
+impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
+    /// Finds the bodies of a chunk that are near fixed parts.
+    pub fn search<L: Lane<Scalar = T>>(&self, bodies: Range<usize>, chunk: &mut Chunk) {
+        if self.tree.len() <= FEW_PARTS {
+            for part in 0..self.parts.count() as u32 {
+                self.sweep::<L>(part, &bodies, chunk);
+            }
+            return;
+        }
+        for &part in self.tree.endless() {
+            self.sweep::<L>(part, &bodies, chunk);
+        }
+        let mut found = Vec::new();
+        let mut rest = bodies;
+        while !rest.is_empty() {
+            let (group, bounds) = self.group(&rest);
+            rest.start = group.end;
+            for (number, &image) in (0..).zip(self.images) {
+                let bounds = bounds.map(|corner| corner + image);
+                self.tree.for_each_box(bounds, |bounds, part| {
+                    self.near_box::<L>(&group, image, bounds, |body| {
+                        found.push((part, body, number));
+                    });
+                });
+            }
+        }
+        // Part by part, as they stand in memory.
+        found.sort_unstable();
+        for images in found.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (part, body, _) = images[0];
+            let slot = body as usize;
+            let (center, radius) = (self.center(slot), self.radius.of(slot));
+            let gap = |&(_, _, image): &Near| {
+                self.parts.gap::<T>(part as usize, center + self.images[image as usize], radius)
+            };
+            let gap =
+                images[1..].iter().fold(gap(&images[0]), |least, image| gap(image).lesser(least));
+            let twice = gap + gap;
+            if twice < self.skin {
+                chunk.at_parts[shell(&self.shell_ends, twice)].push(part, body);
+            }
+        }
+    }
+
+    /// Tests some bodies against one part.
+    #[inline(never)]
+    fn sweep<L: Lane<Scalar = T>>(&self, part: u32, bodies: &Range<usize>, chunk: &mut Chunk) {
+        let Some((first, others)) = self.images.split_first() else { return };
+        for start in bodies.clone().step_by(L::WIDTH) {
+            let (center, radius) = (self.centers::<L>(start), self.radius.load_tail::<L>(start));
+            let gap = |image: &Vec3<T>| {
+                self.parts.gap(part as usize, center + Vec3::splat(*image), radius)
+            };
+            let gap = others.iter().fold(gap(first), |least, image| gap(image).lesser(least));
+            let twice = gap + gap;
+            let mut bits = twice.lt(L::splat(self.skin)).bits();
+            while bits != 0 {
+                let k = bits.trailing_zeros() as usize;
+                if start + k < bodies.end {
+                    let shell = shell(&self.shell_ends, twice.to_array().as_ref()[k]);
+                    chunk.at_parts[shell].push(part, (start + k) as u32);
+                }
+                bits &= bits - 1;
+            }
+        }
+    }
+
+    /// The next bodies for which the tree is asked at once, and the box around what
+    /// they can reach.
+    fn group(&self, bodies: &Range<usize>) -> (Range<usize>, Bounds<T>) {
+        let one = self.bounds(bodies.start);
+        let (mut end, mut all) = (bodies.start + 1, one);
+        while end < bodies.end && end - bodies.start < GROUP {
+            let more = joined(all, self.bounds(end));
+            if !is_within(more, one, T::whole(COMPACT)) {
+                break;
+            }
+            all = more;
+            end += 1;
+        }
+        (bodies.start..end, all)
+    }
+
+    /// Calls `visit` with those of some bodies an image of which comes near a box.
+    #[inline(always)]
+    fn near_box<L: Lane<Scalar = T>>(
+        &self,
+        bodies: &Range<usize>,
+        image: Vec3<T>,
+        [lower, upper]: Bounds<T>,
+        mut visit: impl FnMut(u32),
+    ) {
+        let [lower, upper] = [lower - image, upper - image].map(Vec3::<L>::splat);
+        for start in bodies.clone().step_by(L::WIDTH) {
+            let center = self.centers::<L>(start);
+            let beyond = |least: L, c: L, most: L| (least - c).greater(c - most).greater(L::ZERO);
+            let offset = Vec3::new(
+                beyond(lower.x, center.x, upper.x),
+                beyond(lower.y, center.y, upper.y),
+                beyond(lower.z, center.z, upper.z),
+            );
+            let reach = self.radius.load_tail::<L>(start) + L::splat(self.reach());
+            let reach = reach * L::ratio(1025, 1024);
+            let mut bits = offset.length_squared().le(reach * reach).bits();
+            while bits != 0 {
+                let body = start as u32 + bits.trailing_zeros();
+                if (body as usize) < bodies.end {
+                    visit(body);
+                }
+                bits &= bits - 1;
+            }
+        }
+    }
+
+    /// The centres of the bodies from a slot on, zeros past the end.
+    #[inline(always)]
+    fn centers<L: Lane<Scalar = T>>(&self, start: usize) -> Vec3<L> {
+        let [x, y, z] = self.position;
+        Vec3::new(x.load_tail(start), y.load_tail(start), z.load_tail(start))
+    }
+
+    #[inline(always)]
+    fn center(&self, body: usize) -> Vec3<T> {
+        let [x, y, z] = self.position;
+        Vec3::new(x[body], y[body], z[body])
+    }
+
+    /// How far from its surface a body looks for parts.
+    #[inline(always)]
+    fn reach(&self) -> T {
+        self.skin * T::ratio(1, 2)
+    }
+
+    /// The box that a body and half of its skin fill.
+    #[inline(always)]
+    fn bounds(&self, body: usize) -> Bounds<T> {
+        let reach = self.radius.of(body) + self.reach();
+        let (center, reach) = (self.center(body), Vec3::new(reach, reach, reach));
+        [center - reach, center + reach]
+    }
+}
+
+/// Whether a box is at most `times` as wide as another one along each axis.
+fn is_within<T: Real>(all: Bounds<T>, one: Bounds<T>, times: T) -> bool {
+    let [all, one] = [all, one].map(|[lower, upper]| (upper - lower).to_array());
+    (0..3).all(|k| all[k] <= one[k] * times)
+}

@@ -1,0 +1,128 @@
+//! Time series, and pictures of them.
+
+use std::fs;
+
+use approx::assert_relative_eq;
+
+use crate::{BOX, FLUID, Folder, rows};
+
+/// A column of the series; `None` for empty fields.
+fn column(folder: &Folder, name: &str) -> Vec<Option<f64>> {
+    let (names, rows) = rows(&folder.path("series.csv"));
+    let column = names.iter().position(|other| other == name).unwrap();
+    rows.iter().map(|row| row[column].parse().ok()).collect()
+}
+
+#[test]
+fn the_series_of_a_fluid_adds_up_to_its_summary() {
+    for engine in ["stepped", "event-driven"] {
+        let folder = Folder::with(FLUID);
+        let run = format!("run scene.toml --json --engine {engine}");
+        let plain = folder.says(&run).summary();
+        let with = folder.says(&format!("{run} --series series.csv --series-every 0.125"));
+        let with = with.summary();
+        assert_eq!(with["state_hash"], plain["state_hash"]);
+        assert_eq!(with["compressibility"], plain["compressibility"]);
+        let times: Vec<f64> = column(&folder, "time").into_iter().flatten().collect();
+        assert_eq!(times.len(), 9);
+        for (k, time) in times.iter().enumerate() {
+            // A step at or next behind each time.
+            let late = time - 0.125 * k as f64;
+            assert!((0.0..0.002).contains(&late) && (late == 0.0 || engine == "stepped"));
+        }
+        let last = |name: &str| column(&folder, name).last().unwrap().unwrap();
+        assert_eq!(last("energy"), with["energy"]["final"].as_f64().unwrap());
+        assert_eq!(last("pairs"), with["collisions"]["pairs"].as_f64().unwrap());
+        assert_eq!(last("surroundings"), 0.0);
+        assert_eq!(last("temperature"), with["temperature"]["translational"].as_f64().unwrap());
+        // Equal times, one temperature: the mean of the parts is the whole.
+        if engine == "event-driven" {
+            let factors = column(&folder, "compressibility");
+            assert_eq!(factors[0], None);
+            let mean = factors.iter().flatten().sum::<f64>() / 8.0;
+            let whole = with["compressibility"].as_f64().unwrap();
+            assert_relative_eq!(mean, whole, max_relative = 1e-9);
+            let rates = column(&folder, "collision_rate").into_iter().flatten().sum::<f64>() / 8.0;
+            let whole = with["collision_rate"].as_f64().unwrap();
+            assert_relative_eq!(rates, whole, max_relative = 1e-12);
+            // p = Z n kT
+            let pressure = last("pressure");
+            let factor = factors[8].unwrap() * 0.5 * last("temperature");
+            assert_relative_eq!(pressure, factor, max_relative = 1e-9);
+        }
+        // Nothing pulls the bodies: their centre moves with their momentum, of zero.
+        for name in ["center_x", "center_y", "center_z"] {
+            let places: Vec<f64> = column(&folder, name).into_iter().flatten().collect();
+            assert!(places.iter().all(|place| (place - places[0]).abs() < 1e-9), "{places:?}");
+        }
+    }
+}
+
+#[test]
+fn the_walls_force_is_what_changes_the_momentum() {
+    let folder = Folder::with(BOX);
+    let run = "run scene.toml --engine event-driven --series series.csv --series-every 0.25";
+    folder.says(run).well();
+    let all = |name: &str| column(&folder, name);
+    let (momentum, force) = (all("pz"), all("force_z"));
+    for k in 1..momentum.len() {
+        let change = momentum[k].unwrap() - momentum[k - 1].unwrap();
+        // Twenty masses, one of them 3, in a field of −1.
+        let expected = 0.25 * (force[k].unwrap() - 22.0);
+        assert!((change - expected).abs() < 1e-9, "{change} {expected}");
+    }
+    assert!(all("pressure").iter().all(Option::is_none));
+    assert!(all("surroundings_rate")[1..].iter().all(Option::is_some));
+}
+
+#[test]
+fn columns_are_chosen_by_name() {
+    let with = |keys: &str| Folder::with(&format!("{FLUID}\n[series]\n{keys}\n"));
+    let folder =
+        with("file = \"series.csv\"\nevery = 0.5\ncolumns = [\"pressure\", \"time\", \"px\"]");
+    folder.says("run scene.toml").well();
+    let text = folder.read("series.csv");
+    assert_eq!(text.lines().next(), Some("pressure,time,px"));
+    assert_eq!(text.lines().count(), 4);
+    for (keys, words) in [
+        (
+            "file = \"a.csv\"\nevery = 1\ncolumns = [\"presure\"]",
+            "scene.toml:18: series.columns is",
+        ),
+        ("file = \"a.txt\"\nevery = 1", "scene.toml:16: series.file is"),
+        ("file = \"a.csv\"", "--series-every TIME"),
+        ("file = \"a.csv\"\nevery = -1", "scene.toml:17: series.every is -1.0"),
+    ] {
+        let folder = with(keys);
+        let message = folder.says("run scene.toml").fails_with(2);
+        assert!(message.contains(words), "no {words:?} in: {message}");
+        assert_eq!(folder.names(), ["scene.toml"]);
+    }
+}
+
+#[test]
+fn a_series_is_drawn() {
+    let folder = Folder::with(FLUID);
+    folder.says("run scene.toml --series gas.csv --series-every 0.1").well();
+    folder.says("plot gas.csv").well();
+    let picture = folder.read("gas.svg");
+    for text in ["<svg", "translational", "pressure", "centre of mass", "collision_rate"] {
+        assert!(picture.contains(text), "{text}");
+    }
+    folder.says("plot gas.csv -o one.svg --columns energy").well();
+    let one = folder.read("one.svg");
+    assert!(one.contains("energy") && !one.contains("pressure") && one.len() < picture.len());
+
+    let refused = |arguments: &str, words: &[&str]| {
+        let message = folder.says(arguments).fails_with(2);
+        for word in words {
+            assert!(message.contains(word), "no {word:?} in: {message}");
+        }
+    };
+    refused("plot no.csv", &["no.csv"]);
+    refused("plot gas.csv -o gas.pdf", &["-o is gas.pdf", ".svg"]);
+    refused("plot gas.csv --columns enrgy", &["\"enrgy\"", "it has time, energy"]);
+    fs::write(folder.path("words.csv"), "a,b\nx,y\n").unwrap();
+    refused("plot words.csv", &["words.csv: it must have names"]);
+    assert!(!folder.names().contains(&"words.svg".to_owned()));
+}
