@@ -167,6 +167,19 @@ impl<T: Real> Calendar<T> {
         self.now.pop();
     }
 
+    /// Takes the turns of two bodies off that come next, at a time: they are about to start
+    /// flights, and what follows from those at this time has another place in the order.
+    #[inline(always)]
+    pub fn forget(&mut self, time: T, slots: [u32; 2]) {
+        let mut at = self.now.len();
+        while at > 0 && self.now[at - 1].time == time {
+            at -= 1;
+            if slots.contains(&self.now[at].slot) {
+                self.now.remove(at);
+            }
+        }
+    }
+
     /// Opens the next span; false after the last.
     fn open_next(
         &mut self,

@@ -42,11 +42,7 @@ struct Turning {
 }
 
 /// What is to be remembered.
-pub(super) fn save<T: Real>(
-    store: &Store<T>,
-    clock: &Clock<T>,
-    is_too_fast: bool,
-) -> EventState {
+pub(super) fn save<T: Real>(store: &Store<T>, clock: &Clock<T>, is_too_fast: bool) -> EventState {
     let flights = || store.records.iter().map(Record::flight);
     let (spins, turned) = (&store.spins, &store.turned);
     EventState {

@@ -73,6 +73,7 @@ pub(super) fn take_turn<T: Real>(
                 Err(feature) => {
                     let nearby = find(setting, region, 0, slot, cell)?;
                     let contact = (slot, feature);
+                    region.worker.calendar.forget(time, [slot; 2]);
                     let made = collide_with_feature(setting, region, clock, contact, nearby, when);
                     if let Some(on_event) = on_event {
                         let part = setting.parts[feature as usize];
@@ -89,6 +90,7 @@ pub(super) fn take_turn<T: Real>(
                         find(setting, region, 0, pair[0], cells[0])?,
                         find(setting, region, 1, pair[1], cells[1])?,
                     ];
+                    region.worker.calendar.forget(time, pair);
                     let made = collide_pair(setting, region, clock, pair, nearby, when);
                     if let Some(on_event) = on_event {
                         let bodies = pair.map(|slot| region.index[slot as usize]);
