@@ -1,6 +1,6 @@
 //! A run that is cut anywhere and goes on from a snapshot is the run that was never cut.
 
-use carom::engine::{Compiled, Execution, Lanes, Snapshot, World};
+use carom::engine::{Compiled, Execution, Lanes, Order, Snapshot, World};
 use carom::scene::EngineKind;
 use carom::{SceneFile, state_hash};
 
@@ -177,7 +177,8 @@ fn cut<T: Compiled>(file: &SceneFile, duration: f64, seed: u64) -> Story {
         if collisions == u64::MAX {
             tell(&mut world, until, &mut events);
         }
-        let execution = executions[part % 4].threads(1 + part % 2);
+        let order = [Order::Strict, Order::Windows][part / 2 % 2];
+        let execution = executions[part % 4].threads(1 + part % 2).order(order);
         let snapshot = through_bytes(&world.snapshot());
         world = World::resume(file.build::<T>().unwrap(), execution, &snapshot).unwrap();
     }

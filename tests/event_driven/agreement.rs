@@ -263,9 +263,10 @@ fn same_events<T: Compiled>(scene: &Scene<T>, seed: u64, most: u64) -> usize {
 }
 
 fn scenes_agree<T: Compiled>(kind: Kind) {
-    let found: usize = (0..SCENES).map(|seed| agree::<T>(kind, seed, 100)).sum();
-    println!("{kind:?} {}: {found} equal events in {SCENES} scenes", T::NAME);
-    assert!(found as u64 > SCENES * 10, "{kind:?}: {found} events are too few to compare");
+    let scenes = scenes();
+    let found: usize = (0..scenes).map(|seed| agree::<T>(kind, seed, 100)).sum();
+    println!("{kind:?} {}: {found} equal events in {scenes} scenes", T::NAME);
+    assert!(found as u64 > scenes * 10, "{kind:?}: {found} events are too few to compare");
 }
 
 /// Crowds, with many cells and spans of the calendar.
@@ -381,6 +382,11 @@ fn crowds_in_corners() {
 
 /// Random scenes of each kind and precision.
 const SCENES: u64 = 40;
+
+/// How many: as the environment wants it, for long tests.
+fn scenes() -> u64 {
+    std::env::var("SCENES").ok().map_or(SCENES, |text| text.parse().unwrap())
+}
 
 macro_rules! kinds {
     ($($test:ident: $kind:ident,)*) => {$(

@@ -1,7 +1,7 @@
 //! To stop and to look in between changes nothing.
 
 use carom::contact::Surface;
-use carom::engine::{Compiled, EngineError};
+use carom::engine::{Compiled, EngineError, EventDriven, Execution, Order};
 use carom::observe::state_hash;
 use carom::scene::{Scene, Sphere, Spheres};
 use carom::space::PeriodicBox;
@@ -23,6 +23,14 @@ fn scenes<T: Compiled>() -> [Scene<T>; 2] {
     [periodic, falling].map(|scene| scene.build().unwrap())
 }
 
+/// A scene at its start, in windows of time.
+fn in_windows<T: Compiled>(scene: &Scene<T>, threads: usize) -> EventDriven<T> {
+    let execution = Execution::new().order(Order::Windows).threads(threads);
+    let world = EventDriven::with_execution(scene.clone(), execution).unwrap();
+    assert_eq!((world.plan().order, world.plan().threads), (Order::Windows, threads));
+    world
+}
+
 /// Two advances are one, if their sum is exact, and looking changes no bit.
 #[test]
 fn parts_make_the_whole() {
@@ -31,14 +39,20 @@ fn parts_make_the_whole() {
         let all = events(&mut whole, 6.0);
         let hash = state_hash(&whole.bodies());
         assert!(all.len() > 500, "{} events", all.len());
-        for parts in [
+        for (parts, threads) in [
             vec![3.0, 3.0],
             vec![0.0, 5.5, 0.0, 0.5],
             vec![1.0 / 64.0; 384],
             (0..24).map(|k| f64::from(k % 3) * 0.25).collect(),
             vec![1.0 / 4096.0; 6 * 4096],
-        ] {
-            let mut world = world(scene.clone());
+        ]
+        .into_iter()
+        .flat_map(|parts| [(parts.clone(), 0), (parts.clone(), 1), (parts, 2)])
+        {
+            let mut world = match threads {
+                0 => world(scene.clone()),
+                _ => in_windows(scene, threads),
+            };
             let mut found = Vec::new();
             for (k, part) in parts.iter().enumerate() {
                 found.extend(events(&mut world, *part));
@@ -89,6 +103,65 @@ fn event_by_event() {
     }
     scenes::<f32>().iter().for_each(one_by_one);
     scenes::<f64>().iter().for_each(one_by_one);
+}
+
+/// Windows are cut at the collision that is asked for, also where the next one has the same
+/// time.
+#[test]
+fn some_events_after_others() {
+    fn some<T: Compiled>(scene: &Scene<T>) {
+        let mut whole = world(scene.clone());
+        let all = events(&mut whole, 4.0);
+        for (threads, count) in [(1, 100), (2, 101), (3, 250), (7, 333)] {
+            let mut world = in_windows(scene, threads);
+            let mut found = Vec::new();
+            let mut note = |event: &_| found.push(*event);
+            for part in 1.. {
+                let is_there = world.advance_to(4.0, count, Some(&mut note)).unwrap();
+                if is_there {
+                    break;
+                }
+                let made = part * count as usize;
+                assert_eq!(world.collisions().total(), made as u64);
+                assert_eq!(world.time(), all[made - 1].time);
+            }
+            assert_eq!(found, all, "{threads} threads");
+            assert_eq!(state_hash(&world.bodies()), state_hash(&whole.bodies()));
+            assert_eq!(world.virial(), whole.virial());
+            assert_eq!(world.impulse_from_surroundings(), whole.impulse_from_surroundings());
+            assert_eq!(world.mean_free_path(), whole.mean_free_path());
+        }
+    }
+    scenes::<f32>().iter().for_each(some);
+    scenes::<f64>().iter().for_each(some);
+}
+
+/// A period ends early where a body has become too fast for it, within a window as well:
+/// one shot into bodies at rest, light ones among them.
+#[test]
+fn a_shot_among_bodies_at_rest() {
+    fn shot<T: Compiled>() {
+        let at_rest = Spheres::random(150).radius(0.2..=0.5).mass(0.01..=1.0).seed(2);
+        let ball = Sphere::new([-30.0, 3.1, 2.9]).radius(0.5).mass(50.0);
+        for speed in [1e-3, 1.0, 1e3] {
+            let scene = builder::<T>()
+                .sphere(ball.clone().velocity([speed, 0.0, 0.0]))
+                .spheres(at_rest.clone().within([0.0; 3], [6.0; 3]))
+                .build()
+                .unwrap();
+            let duration = 45.0 / speed;
+            let mut strict = world(scene.clone());
+            let all = events(&mut strict, duration);
+            assert!(all.len() > 20, "{} events", all.len());
+            for threads in [1, 2, 7] {
+                let mut world = in_windows(&scene, threads);
+                assert_eq!(events(&mut world, duration), all, "{threads} threads");
+                assert_eq!(state_hash(&world.bodies()), state_hash(&strict.bodies()));
+            }
+        }
+    }
+    shot::<f32>();
+    shot::<f64>();
 }
 
 /// Events come in order, add up to the counters, and the last one of each body

@@ -1,7 +1,7 @@
 //! The same events, bit by bit, in every lane width.
 
 use carom::contact::Surface;
-use carom::engine::{Compiled, EngineError, Event, EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, EngineError, Event, EventDriven, Execution, Lanes, Order};
 use carom::observe::{StateHash, state_hash};
 use carom::scene::{Scene, SceneFile, Spheres, builtin_scenes};
 use carom::space::PeriodicBox;
@@ -11,9 +11,15 @@ use crate::{FAST, builder, t3, world};
 
 const OTHERS: [Lanes; 4] = [Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Sixteen];
 
+/// Threads that windows of time are tried on.
+const THREADS: [usize; 4] = [1, 2, 3, 7];
+
 /// All events up to a time and the state there; whether time has stood still.
-fn story<T: Compiled>(scene: Scene<T>, lanes: Lanes, end: f64) -> (Vec<Event<T>>, StateHash, bool) {
-    let execution = Execution::new().lanes(lanes).threads(1);
+fn story<T: Compiled>(
+    scene: Scene<T>,
+    execution: Execution,
+    end: f64,
+) -> (Vec<Event<T>>, StateHash, bool) {
     let mut world = EventDriven::with_execution(scene, execution).unwrap();
     let mut events = Vec::new();
     let result = world.for_each_event(end, |event| events.push(*event));
@@ -28,15 +34,17 @@ fn paths_agree<T: Compiled>(scene: &Scene<T>, most: u64) -> usize {
     // One that stalls does so on all paths.
     let _ = first.advance_until(most, 20.0);
     let end = first.time();
-    let expected = story(scene.clone(), Lanes::Auto, end);
-    for lanes in OTHERS {
-        let found = story(scene.clone(), lanes, end);
+    let expected = story(scene.clone(), FAST, end);
+    let lanes = OTHERS.map(|lanes| FAST.lanes(lanes));
+    let threads = THREADS.map(|threads| FAST.order(Order::Windows).threads(threads));
+    for other in lanes.into_iter().chain(threads) {
+        let found = story(scene.clone(), other, end);
         let name = &scene.name;
         for (k, (found, expected)) in found.0.iter().zip(&expected.0).enumerate() {
-            assert_eq!(found, expected, "event {k} of {name} in {} {lanes:?}", T::NAME);
+            assert_eq!(found, expected, "event {k} of {name} in {} {other:?}", T::NAME);
         }
-        assert_eq!(found.0.len(), expected.0.len(), "{name} in {} {lanes:?}", T::NAME);
-        assert_eq!((found.1, found.2), (expected.1, expected.2), "{name} {} {lanes:?}", T::NAME);
+        assert_eq!(found.0.len(), expected.0.len(), "{name} in {} {other:?}", T::NAME);
+        assert_eq!((found.1, found.2), (expected.1, expected.2), "{name} {} {other:?}", T::NAME);
     }
     expected.0.len()
 }

@@ -124,10 +124,13 @@ pub(super) fn place<T: Real>(
     let unknown = T::from_f64(f64::INFINITY);
     store.next.clear();
     store.next.resize(len, unknown);
-    let cells = store.cells.only().numbers();
-    let (grid, agendas) = (store.cells.finest(), &store.agendas);
-    let cell_of = |slot: usize| grid.number_of(agendas[slot].cell);
-    team.cuts = Cuts::new(2 * team.workers.len(), len, cells, cell_of);
+    // Later in a period bodies are no longer sorted.
+    if now == T::ZERO || team.cuts.are_none() {
+        let cells = store.cells.only().numbers();
+        let (grid, agendas) = (store.cells.finest(), &store.agendas);
+        let cell_of = |slot: usize| grid.number_of(agendas[slot].cell);
+        team.cuts = Cuts::new(2 * team.workers.len(), len, cells, cell_of);
+    }
     let is_left = |store: &Store<T>| store.next.contains(&unknown);
     team.share(store, window, 2, is_left, |region, slots| {
         for slot in slots {

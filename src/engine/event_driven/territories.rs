@@ -46,11 +46,18 @@ impl Cuts {
             } else {
                 cells
             };
-            cuts.cells.push(cell);
+            // Bodies of a run that is continued may have moved since they were sorted.
+            let before = cuts.cells.last().map_or(0, |&cell| cell);
+            cuts.cells.push(cell.max(before));
         }
         cuts.slots.push(len);
         cuts.cells.push(cells);
         cuts
+    }
+
+    /// Whether nothing has been cut yet.
+    pub fn are_none(&self) -> bool {
+        self.slots.is_empty()
     }
 
     /// The slots of a piece.

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::{Plan, Turning};
+use crate::engine::Order;
 use crate::scene::{EngineKind, Impact, Summation};
 
 impl fmt::Display for Plan {
@@ -15,6 +16,18 @@ impl fmt::Display for Plan {
         row("threads", &self.threads.to_string())?;
         if !is_stepped {
             row("time", "in periods with an origin of their own, a power of two long")?;
+        }
+        if !is_stepped {
+            row(
+                "order",
+                match self.order {
+                    Order::Windows => {
+                        "windows of time, neighbours after neighbours; what came too early is taken \
+                         back: the bits of strict order"
+                    }
+                    _ => "strict: one collision after the other in time",
+                },
+            )?;
         }
         row("flight", &self.flight())?;
         if is_stepped {

@@ -92,12 +92,8 @@ impl ExactSum {
         self.pending = 0;
     }
 
-    /// The sum, rounded once, to nearest.
-    #[must_use]
-    pub fn value(&self) -> f64 {
-        if self.boundless != 0.0 || self.boundless.is_nan() {
-            return self.boundless;
-        }
+    /// Whether the sum is negative, and the limbs of its magnitude, of [`DIGITS`] each.
+    fn magnitude(&self) -> (bool, [i64; LIMBS]) {
         let mut sum = self.clone();
         sum.carry();
         let is_negative = sum.limbs[LIMBS - 1] < 0;
@@ -105,14 +101,24 @@ impl ExactSum {
             sum.limbs.iter_mut().for_each(|limb| *limb = -*limb);
             sum.carry();
         }
-        let Some(top) = sum.limbs.iter().rposition(|&limb| limb != 0) else { return 0.0 };
+        (is_negative, sum.limbs)
+    }
+
+    /// The sum, rounded once, to nearest.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        if self.boundless != 0.0 || self.boundless.is_nan() {
+            return self.boundless;
+        }
+        let (is_negative, limbs) = self.magnitude();
+        let Some(top) = limbs.iter().rposition(|&limb| limb != 0) else { return 0.0 };
         // Three limbs hold more digits than a double; one digit stands for the rest.
         let lowest = top.saturating_sub(2);
         let mut digits = 0_u128;
-        for &limb in sum.limbs[lowest..=top].iter().rev() {
+        for &limb in limbs[lowest..=top].iter().rev() {
             digits = digits << DIGITS | limb as u128;
         }
-        digits |= u128::from(sum.limbs[..lowest].iter().any(|&limb| limb != 0));
+        digits |= u128::from(limbs[..lowest].iter().any(|&limb| limb != 0));
         let exponent = (DIGITS as usize * lowest) as i32 - 1074;
         // In two steps: one power of two may be out of range.
         let [one, other] = [exponent / 2, exponent - exponent / 2].map(|k| 2.0_f64.powi(k));
@@ -121,16 +127,21 @@ impl ExactSum {
     }
 }
 
-/// What files keep of a sum: its limbs, and the sum of the terms that are not finite.
+/// What files keep of a sum: its sign, the number of its first limb that is not 0, the
+/// limbs from there on, and the sum of the terms that are not finite.
 #[cfg(feature = "files")]
 #[derive(Serialize, Deserialize)]
-struct Digits(Vec<i64>, f64);
+struct Digits(bool, u8, Vec<u32>, f64);
 
 #[cfg(feature = "files")]
 impl From<ExactSum> for Digits {
-    fn from(mut sum: ExactSum) -> Self {
-        sum.carry();
-        Self(sum.limbs.to_vec(), sum.boundless)
+    fn from(sum: ExactSum) -> Self {
+        let (is_negative, limbs) = sum.magnitude();
+        let is_used = |limb: &i64| *limb != 0;
+        let first = limbs.iter().position(is_used).unwrap_or(0);
+        let end = limbs.iter().rposition(is_used).map_or(first, |last| last + 1);
+        let used = limbs[first..end].iter().map(|&limb| limb as u32).collect();
+        Self(is_negative, first as u8, used, sum.boundless)
     }
 }
 
@@ -138,15 +149,15 @@ impl From<ExactSum> for Digits {
 impl TryFrom<Digits> for ExactSum {
     type Error = &'static str;
 
-    fn try_from(Digits(limbs, boundless): Digits) -> Result<Self, Self::Error> {
-        let limbs: [i64; LIMBS] = limbs.try_into().map_err(|_| "a sum of another length")?;
-        let is_carried = |limb: &i64| (0..1 << DIGITS).contains(limb);
-        let is_last = |limb: &i64| limb.unsigned_abs() < 1 << DIGITS;
-        let (others, last) = limbs.split_at(LIMBS - 1);
-        if !others.iter().all(is_carried) || !last.iter().all(is_last) {
-            return Err("a sum that has more digits than sums have");
+    fn try_from(Digits(is_negative, first, used, boundless): Digits) -> Result<Self, Self::Error> {
+        let mut sum = Self { boundless, pending: 1, ..Self::default() };
+        let first = usize::from(first);
+        let limbs = sum.limbs.get_mut(first..first.saturating_add(used.len()));
+        let limbs = limbs.ok_or("a sum that has more digits than sums have")?;
+        for (limb, digits) in limbs.iter_mut().zip(used) {
+            *limb = if is_negative { -i64::from(digits) } else { i64::from(digits) };
         }
-        Ok(Self { limbs, pending: 1, boundless })
+        Ok(sum)
     }
 }
 
@@ -192,6 +203,28 @@ mod tests {
             terms[1..].iter().for_each(|term| sum.add(-term));
             assert_eq!(sum.value(), terms[0]);
         }
+    }
+
+    /// A sum that was in a file goes on as if it had not been.
+    #[cfg(feature = "files")]
+    #[test]
+    fn files_keep_every_digit() {
+        let mut random = ChaCha8Rng::seed_from_u64(2);
+        for terms in 0..200 {
+            let mut draw =
+                || random.random_range(-1.0..1.0) * 2.0_f64.powi(random.random_range(-1100..1000));
+            let (sum, more) = (of((0..terms).map(|_| draw())), draw());
+            let bytes = postcard::to_stdvec(&sum).unwrap();
+            let mut read: ExactSum = postcard::from_bytes(&bytes).unwrap();
+            assert_eq!(read.value().to_bits(), sum.value().to_bits());
+            let mut sum = sum;
+            [&mut read, &mut sum].into_iter().for_each(|sum| sum.add(more));
+            assert_eq!(read.value().to_bits(), sum.value().to_bits());
+        }
+        let infinite = postcard::to_stdvec(&of([f64::INFINITY])).unwrap();
+        assert_eq!(postcard::from_bytes::<ExactSum>(&infinite).unwrap().value(), f64::INFINITY);
+        let too_many = postcard::to_stdvec(&(false, 60_u8, vec![1_u32; 60], 0.0)).unwrap();
+        assert!(postcard::from_bytes::<ExactSum>(&too_many).is_err());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 
 use carom::contact::Surface;
 use carom::engine::{
-    Compiled, EngineError, Event, EventDriven, Execution, Lanes, Partner, Stepped,
+    Compiled, EngineError, Event, EventDriven, Execution, Lanes, Order, Partner, Stepped,
 };
 use carom::motion::Integrator;
 use carom::observe::state_hash;
@@ -58,7 +58,8 @@ fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
     let Ok(scene) = described.builder.build() else { return Outcome::Refused };
 
     show(&scene);
-    let (found, end) = story(&scene, Lanes::Auto, &[duration]);
+    let strictly = Execution::new().order(Order::Strict).threads(1);
+    let (found, end) = story(&scene, strictly, &[duration]);
     check(&scene, &found);
     let is_stopped = match end {
         Ok(()) => false,
@@ -68,20 +69,23 @@ fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
     if is_stopped {
         return Outcome::Stopped;
     }
-    // In other lanes, and with a stop on the way, it is the same.
-    let (same, end) = story(&scene, lanes, &[found.time * part, found.time]);
-    assert!(end.is_ok(), "{end:?}");
-    check_same(&found, &same);
+    // In other lanes, with a stop on the way, and in windows of time, it is the same.
+    // Threads that come and go take longer than all else.
+    let threads = if part < 0.1 { 3 } else { 1 };
+    for other in [strictly, Execution::new().order(Order::Windows).threads(threads)] {
+        let (same, end) = story(&scene, other.lanes(lanes), &[found.time * part, found.time]);
+        assert!(end.is_ok(), "{end:?}");
+        check_same(&found, &same);
+    }
     Outcome::Ran
 }
 
 /// All events up to the last of some times, or up to the time of the last of so many.
 fn story<T: Compiled>(
     scene: &Scene<T>,
-    lanes: Lanes,
+    execution: Execution,
     times: &[f64],
 ) -> (Run<T>, Result<(), EngineError>) {
-    let execution = Execution::new().lanes(lanes).threads(1);
     let mut world = EventDriven::with_execution(scene.clone(), execution).unwrap();
     let mut events = Vec::new();
     let mut end = Ok(());
@@ -128,7 +132,7 @@ fn steps<T: Compiled>(draws: &mut Draws) -> Outcome {
     check_same(&found, &march(&scene, execution, &[steps / 2, steps - steps / 2]));
     let is_exact = impact == Impact::SubStep && integrator == verlet && !described.may_rest;
     if T::EPSILON.to_f64() == f64::EPSILON && is_exact {
-        let (exact, _) = story(&scene, Lanes::Auto, &[found.time]);
+        let (exact, _) = story(&scene, Execution::new().threads(1), &[found.time]);
         check_first_events(&scene, &found, &exact);
     }
     Outcome::Ran
