@@ -1,16 +1,17 @@
-//! The event-driven engine: collisions a second and memory, beside the best
-//! public code.
+//! The event-driven engine: nanoseconds a collision and memory, in strict order of time
+//! and in windows, on one thread and on two.
 //!
 //! ```text
-//! cargo bench --manifest-path benches/Cargo.toml --bench event_driven            # two minutes
+//! cargo bench --manifest-path benches/Cargo.toml --bench event_driven            # ten minutes
 //! cargo bench --manifest-path benches/Cargo.toml --bench event_driven -- small   # up to 10,976 bodies
 //! cargo bench --manifest-path benches/Cargo.toml --bench event_driven -- full    # longer melting, more rounds
+//! cargo bench --manifest-path benches/Cargo.toml --bench event_driven -- "0.5, 97556"    # rows of that name
 //! ```
 //!
 //! Each row runs in a process of its own, so that the greatest resident size is
 //! its own too; that includes making the scene. All are set up first and then
 //! wait; in each round every row has its turn, so that a busy spell of the
-//! machine falls on all of them.
+//! machine falls on all of them. Ratios are medians of those of the rounds.
 
 #[path = "common/fluid.rs"]
 mod fluid;
@@ -26,7 +27,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Instant;
 
 use carom::contact::Surface;
-use carom::engine::{Compiled, EventDriven, Execution, Lanes};
+use carom::engine::{Compiled, EventDriven, Execution, Lanes, Order};
 use carom::real::Real;
 use carom::scene::{Scene, SceneError, Spheres};
 use carom::space::PeriodicBox;
@@ -41,28 +42,15 @@ const BODIES: u64 = 10_976;
 /// Share of the volume that spheres of number density 0.5 fill.
 const PACKING_FRACTION: f64 = 0.5 * std::f64::consts::PI / 6.0;
 
-/// Thousand collisions a second by number density and number of bodies: the
-/// best public code, and what carom is to reach. Smallenburg's event-driven
-/// molecular dynamics (2022, github.com/FSmallenburg/EDMD), the faster of its
-/// two methods, cells at 0.5 and neighbour lists at 0.9, on one core of another
-/// machine of this kind (Cascade Lake, 2.5 GHz, shared: ±30 %).
-const FIGURES: [(f64, u64, Option<f64>, Option<f64>); 12] = [
-    (0.5, 1_372, Some(552.0), Some(1_650.0)),
-    (0.5, BODIES, Some(398.0), Some(1_200.0)),
-    (0.5, 97_556, Some(171.0), Some(700.0)),
-    (0.5, 1_000_188, Some(100.0), Some(500.0)),
-    (0.9, 1_372, Some(892.0), Some(2_700.0)),
-    (0.9, BODIES, Some(741.0), Some(2_200.0)),
-    (0.9, 97_556, Some(217.0), Some(1_000.0)),
-    (0.9, 1_000_188, Some(238.0), Some(800.0)),
-    (0.1, 1_372, None, None),
-    (0.1, BODIES, Some(192.0), Some(600.0)),
-    (0.1, 97_556, None, None),
-    (0.1, 1_000_188, None, None),
-];
+/// A time that no row comes to.
+const END: f64 = 1e9;
 
-/// Bytes a body of the same code and carom's goal.
-const BYTES: &str = "2,130 at density 0.5, 412 at 0.9; carom's goal is 250";
+/// Number densities and numbers of bodies of the fluids.
+const DENSITIES: [f64; 3] = [0.5, 0.9, 0.1];
+const SIZES: [u64; 4] = [1_372, BODIES, 97_556, 1_000_188];
+
+/// Orders and threads that are compared, the first with all others.
+const WAYS: [(Order, usize); 3] = [(Order::Strict, 1), (Order::Windows, 1), (Order::Windows, 2)];
 
 /// What moves.
 #[derive(Clone, Copy)]
@@ -84,9 +72,7 @@ struct Row {
     matter: Matter,
     bodies: u64,
     is_single: bool,
-    lanes: Lanes,
-    best_public: Option<f64>,
-    goal: Option<f64>,
+    execution: Execution,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -113,42 +99,48 @@ fn main() -> Result<(), Box<dyn Error>> {
         () if has("full") => 15,
         () => 5,
     };
-    table(&rows, most, rounds, has("full"))
+    let is_option = |text: &&String| ["--bench", "small", "full"].contains(&text.as_str());
+    let names: Vec<_> = arguments.iter().filter(|text| !is_option(text)).collect();
+    let is_wanted = |row: &Row| {
+        row.bodies <= most
+            && (names.is_empty() || names.iter().any(|name| row.name.contains(name.as_str())))
+    };
+    let wanted = rows.iter().enumerate().filter(|(_, row)| is_wanted(row)).collect();
+    table(wanted, rounds, has("full"))
 }
 
-/// All rows.
+/// All rows; those of one name are compared.
 fn rows() -> Vec<Row> {
+    let strict = Execution::new().threads(1).order(Order::Strict);
     let others = |name: &str, matter| Row {
-        name: name.to_owned(),
+        name: format!("{name}, {BODIES}"),
         matter,
         bodies: BODIES,
         is_single: false,
-        lanes: Lanes::Auto,
-        best_public: None,
-        goal: None,
+        execution: strict,
     };
     let fluid = |density, surface| Matter::Fluid { density, surface };
+    let mut rows = Vec::new();
+    for density in DENSITIES {
+        for bodies in SIZES {
+            rows.extend(WAYS.map(|(order, threads)| Row {
+                name: format!("density {density}, {bodies}"),
+                bodies,
+                execution: strict.order(order).threads(threads),
+                ..others("", fluid(density, Surface::Smooth))
+            }));
+        }
+    }
     let smooth = fluid(0.5, Surface::Smooth);
-    let mut rows: Vec<Row> = FIGURES
-        .into_iter()
-        .map(|(density, bodies, best_public, goal)| {
-            let row = others(&format!("density {density}"), fluid(density, Surface::Smooth));
-            Row { bodies, best_public, goal, ..row }
-        })
-        .collect();
-    rows.push(Row { is_single: true, ..others("density 0.5, f32", smooth) });
-    rows.push(others("density 0.5, rough", fluid(0.5, Surface::Rough)));
+    rows.push(Row { is_single: true, ..others("f32, density 0.5", smooth) });
+    rows.push(others("rough, density 0.5", fluid(0.5, Surface::Rough)));
     rows.push(others("gas in a container, gravity", Matter::Gas));
     rows.push(others("mixture, sizes 1:10", Matter::Mixture));
-    let lanes = [
-        (Lanes::Scalar, "scalar"),
-        (Lanes::Four, "4 lanes"),
-        (Lanes::Eight, "8 lanes"),
-        (Lanes::Sixteen, "16 lanes"),
-    ];
-    rows.extend(
-        lanes.map(|(lanes, name)| Row { lanes, ..others(&format!("density 0.5, {name}"), smooth) }),
-    );
+    let lanes = [Lanes::Auto, Lanes::Scalar, Lanes::Four, Lanes::Eight, Lanes::Sixteen];
+    rows.extend(lanes.map(|lanes| Row {
+        execution: strict.lanes(lanes),
+        ..others("lanes, density 0.5", smooth)
+    }));
     rows
 }
 
@@ -194,15 +186,15 @@ impl Row {
 /// of the input asks for. Every answer is the time of a collision in seconds,
 /// the engine's memory and that of the process, bytes a body.
 fn serve<T: Compiled>(row: &Row, melting: u64) -> Result<(), Box<dyn Error>> {
-    let execution = Execution::new().lanes(row.lanes).threads(1);
-    let mut world = EventDriven::with_execution(row.scene::<T>()?, execution)?;
-    world.advance_until(melting * row.bodies / 2, 1e9)?;
+    let mut world = EventDriven::with_execution(row.scene::<T>()?, row.execution)?;
+    world.advance_about(END, melting * row.bodies / 2, None)?;
     println!();
     for line in io::stdin().lines() {
         let collisions = line?.parse()?;
-        let start = Instant::now();
-        let collisions = world.advance_until(collisions, 1e9)?;
-        let time = start.elapsed().as_secs_f64() / collisions as f64;
+        let (start, before) = (Instant::now(), world.collisions().total());
+        world.advance_about(END, collisions, None)?;
+        let made = world.collisions().total() - before;
+        let time = start.elapsed().as_secs_f64() / made as f64;
         let bodies = row.bodies as f64;
         let peak = process::peak_resident().unwrap_or(f64::NAN) / bodies;
         println!("{time} {} {peak}", world.bytes() as f64 / bodies);
@@ -257,45 +249,43 @@ impl<'a> Running<'a> {
         Ok(())
     }
 
-    /// Ends the process, and gives the row of the table.
-    fn finish(self) -> Result<String, Box<dyn Error>> {
-        let Self { row, mut child, orders, mut times, memory: [engine, process], .. } = self;
-        drop(orders);
-        child.wait()?;
-        times.sort_by(f64::total_cmp);
-        let (best, median) = (times[0], times[times.len() / 2]);
-        let thousands = |time: f64| 1e-3 / time;
-        let share = |figure: Option<f64>| {
-            figure.map_or("|".to_owned(), |figure| {
-                format!("{figure:.0} | {:.2}", thousands(median) / figure)
-            })
-        };
+    /// Ends the process, and gives the row of the table, beside another row's times.
+    fn finish(self, others: &[f64]) -> Result<String, Box<dyn Error>> {
+        drop(self.orders);
+        self.child.wait()?;
+        let Row { name, execution, .. } = self.row;
+        let [engine, process] = self.memory;
+        let ratios = others.iter().zip(&self.times).map(|(other, time)| other / time).collect();
+        let best = self.times.iter().copied().fold(f64::INFINITY, f64::min);
+        let [time, ratio] = [self.times, ratios].map(median);
         Ok(format!(
-            "| {} | {} | {:.0} | {:.0} | {:.0} | {engine:.0} | {process:.0} | {} | {} |",
-            row.name,
-            row.bodies,
-            thousands(best),
-            thousands(median),
-            median * 1e9,
-            share(row.best_public),
-            share(row.goal),
+            "| {name} | {} | {} | {} | {:.0} | {:.0} | {ratio:.2} | {engine:.0} | {process:.0} |",
+            execution.order,
+            execution.threads,
+            execution.lanes,
+            best * 1e9,
+            time * 1e9,
         ))
     }
 }
 
-/// The table of all rows up to a number of bodies.
-fn table(rows: &[Row], most: u64, rounds: usize, is_full: bool) -> Result<(), Box<dyn Error>> {
-    println!("Thousand collisions a second, one thread, {rounds} rounds; f64, smooth and in a");
-    println!("periodic cube unless said. The best public code and the goal are figures of");
-    println!("another machine. Ratios and ns are of the median. Its bytes a body: {BYTES}.");
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// The table of some rows, with their numbers among all.
+fn table(rows: Vec<(usize, &Row)>, rounds: usize, is_full: bool) -> Result<(), Box<dyn Error>> {
+    println!("{}; {rounds} rounds. Smooth, f64 and in a", process::processor());
+    println!("periodic cube unless said. The ratio is the time of the first row of a name to that");
+    println!("of a row, the median over the rounds; memory is in bytes a body.");
     println!();
     println!(
-        "| | N | best | median | ns a collision | engine, bytes a body | process, bytes a body \
-         | best public | ratio | goal | ratio |"
+        "| | order | threads | lanes | ns a collision, least | median | ratio | engine | process |"
     );
-    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    println!("|---|---|--:|---|--:|--:|--:|--:|--:|");
     let mut running = Vec::new();
-    for (index, row) in rows.iter().enumerate().filter(|(_, row)| row.bodies <= most) {
+    for (index, row) in rows {
         running.push(Running::start(row, index, is_full)?);
     }
     for _ in 0..rounds {
@@ -303,8 +293,12 @@ fn table(rows: &[Row], most: u64, rounds: usize, is_full: bool) -> Result<(), Bo
             row.measure()?;
         }
     }
+    let mut first = (String::new(), Vec::new());
     for row in running {
-        println!("{}", row.finish()?);
+        if row.row.name != first.0 {
+            first = (row.row.name.clone(), row.times.clone());
+        }
+        println!("{}", row.finish(&first.1)?);
     }
     Ok(())
 }
