@@ -250,7 +250,7 @@ impl<'a> Running<'a> {
     }
 
     /// Ends the process, and gives the row of the table, beside another row's times.
-    fn finish(self, others: &[f64]) -> Result<String, Box<dyn Error>> {
+    fn finish(mut self, others: &[f64]) -> Result<String, Box<dyn Error>> {
         drop(self.orders);
         self.child.wait()?;
         let Row { name, execution, .. } = self.row;

@@ -27,8 +27,9 @@ use crate::scene::{EngineKind, Scene};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
-/// Windows in the first period, before any collisions were counted.
-const FIRST_WINDOWS: i32 = 64;
+/// Windows in a period before any collisions were counted: in dense matter each body has
+/// hundreds in a period.
+const FIRST_WINDOWS: i32 = 512;
 
 /// The event-driven engine of a precision.
 #[derive(Debug)]

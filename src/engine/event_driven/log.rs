@@ -109,9 +109,13 @@ impl<T: Real> Log<T> {
         number
     }
 
+    /// Forgets all entries. Of room for many more than there were it keeps some.
     pub fn clear(&mut self) {
+        let (pasts, spins) = (2 * self.pasts.len(), 2 * self.spins.len());
         self.pasts.clear();
         self.spins.clear();
+        self.pasts.shrink_to(pasts);
+        self.spins.shrink_to(spins);
     }
 
     /// The bytes that it holds.
