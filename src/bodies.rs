@@ -14,6 +14,7 @@
 //! ```
 
 mod builder;
+mod origin;
 
 use crate::column::Column;
 use crate::lane::Lane;
@@ -22,6 +23,7 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 pub use builder::{BodiesBuilder, BodiesError};
+pub(crate) use origin::Origin;
 
 /// The three components of a vector, a column each.
 ///
@@ -231,6 +233,8 @@ impl<T: Real> Figure<T> for &PerBody<T> {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Bodies<T: Real> {
+    /// What has put them where they are.
+    pub(crate) origin: Origin,
     /// Centres, length.
     pub position: Columns3<T>,
     /// Velocities of the centres, length per time.
@@ -309,6 +313,7 @@ impl<T: Real> Bodies<T> {
         };
         let columns = |columns: &Columns3<T>| columns.each_ref().map(column);
         Bodies {
+            origin: self.origin,
             position: columns(&self.position),
             velocity: columns(&self.velocity),
             spin: columns(&self.spin),

@@ -273,7 +273,7 @@ impl<T: Real> Engine<T> for Driver<T> {
                 }
             }
         }
-        bodies
+        bodies.left_by_world()
     }
 
     #[cfg(feature = "files")]
