@@ -9,7 +9,7 @@ use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
-use super::study::Study;
+use super::study::{Study, StudyFolder};
 
 /// Simulates rigid spheres in motion: free flight and elastic collisions,
 /// smooth and rough, with the same bits on every path.
@@ -26,6 +26,7 @@ Examples:
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
   carom plot gas.csv                    draw a time series of a run
+  carom sweep gas.toml --vary spheres[0].radius=0.1:0.3:5   a run for each value
   carom study error gas.toml            what each method costs, and its error
 
 Without a command, `carom` does what `carom run` does."
@@ -83,6 +84,26 @@ Examples:
   carom plot gas.csv                    draws gas.svg
   carom plot gas.csv -o energy.svg --columns energy,kinetic,potential")]
     Plot(PlotArguments),
+    /// Run a scene once for each value of some of its keys, side by side on all cores.
+    ///
+    /// Each run is one row of a table; runs that differ in nothing but the seed give means
+    /// with their errors. An interrupted sweep goes on where it was when it is started
+    /// again, and one that is given more values or seeds keeps the runs that it has.
+    #[command(after_help = "\
+Examples:
+  carom sweep gas.toml --vary spheres[0].radius=0.1,0.2,0.3
+                                        three runs of a scene file
+  carom sweep hard-sphere-fluid --vary spheres[0].number_density=0.1:0.5:5 --seeds 8
+                                        five densities, each with eight seeds
+  carom sweep box.toml --vary gravity=[0,0,-1],[0,0,-2] --vary stepped.dt=1e-3,1e-4
+                                        each value of one with each of the other
+  carom sweep gas.toml --seeds 100 --set surface.kind=rough --engine event-driven
+                                        nothing but seeds
+
+Writes runs.csv, means.csv, report.txt and scene.toml into its folder.
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 if a run fails or a
+file cannot be written.")]
+    Sweep(SweepArguments),
     /// Measure what methods cost and how far off they are.
     #[command(after_help = "\
 Examples:
@@ -205,6 +226,27 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE",
           conflicts_with_all = ["scene", "precision", "engine", "dt", "seed", "set"])]
     pub resume: Option<PathBuf>,
+}
+
+/// What `carom sweep` takes.
+#[derive(Args, Debug)]
+pub struct SweepArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// A key of the scene file and its values, as KEY=a,b,c or, for n numbers at equal
+    /// distances, KEY=from:to:n; can be given many times: each value goes with each of the
+    /// other keys
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub vary: Vec<String>,
+
+    /// Runs for each choice of values, with seeds that count up from the scene's
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub seeds: u64,
+
+    #[command(flatten)]
+    pub folder: StudyFolder,
 }
 
 /// What `carom plot` takes.
