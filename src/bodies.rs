@@ -95,6 +95,20 @@ impl<T: Real> PerBody<T> {
     }
 
     /// The bytes that the figures hold.
+    /// Gives one of so many bodies a value of its own.
+    pub(crate) fn set(&mut self, len: usize, index: usize, value: T) {
+        if let Self::Same(same) = *self {
+            if same == value {
+                return;
+            }
+            // What stands behind the last one is divided by.
+            *self = Self::Each(Column::from_values((0..len).map(|_| same), T::ONE));
+        }
+        if let Self::Each(column) = self {
+            column[index] = value;
+        }
+    }
+
     pub(crate) fn bytes(&self) -> usize {
         match self {
             Self::Same(_) => 0,
@@ -253,6 +267,21 @@ pub struct Bodies<T: Real> {
 }
 
 impl<T: Real> Bodies<T> {
+    /// No bodies.
+    pub(crate) fn none() -> Self {
+        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
+        Self {
+            origin: Origin::Described,
+            position: nothing(),
+            velocity: nothing(),
+            spin: nothing(),
+            orientation: None,
+            radius: PerBody::Same(T::ONE),
+            mass: PerBody::Same(T::ONE),
+            inertia: PerBody::Same(T::ONE),
+        }
+    }
+
     /// Bodies with these centres, length; what else they have is set by the
     /// methods of [`BodiesBuilder`].
     ///

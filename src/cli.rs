@@ -4,6 +4,7 @@ mod arguments;
 mod asked;
 mod closed_output;
 mod conclusion;
+mod events;
 mod explain;
 mod failure;
 mod interrupt;

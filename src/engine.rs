@@ -1,11 +1,13 @@
 //! Engines: what moves a scene through time.
 
 mod account;
+mod change;
 mod compiled;
 mod event;
 mod event_driven;
 mod frame;
 mod interface;
+mod later;
 mod plan;
 #[cfg(feature = "files")]
 mod snapshot;
@@ -18,6 +20,7 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 pub use account::Effort;
+pub use change::{Change, ChangeError};
 pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;

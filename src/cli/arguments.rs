@@ -1,5 +1,6 @@
 //! The arguments that the program takes.
 
+use core::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use carom::engine::{Execution, Lanes, MOST_THREADS, Order};
@@ -9,6 +10,7 @@ use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
+use super::events::bodies;
 use super::study::{Study, StudyFolder};
 
 /// Simulates rigid spheres in motion: free flight and elastic collisions,
@@ -46,6 +48,8 @@ Examples:
   carom run gas.toml --engine event-driven       without steps, exactly
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
+  carom run gas.toml --events e.npz --events-from 5 --events-every 100 --events-of 0-9
+                                                 some of them, as arrays of NumPy
   carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
   carom run gas.toml --series gas.csv --series-every 0.1   figures of it in time
   carom run gas.toml --snapshot gas.snapshot --snapshot-wall 10   keep the run
@@ -180,9 +184,25 @@ pub struct RunArguments {
     #[arg(long)]
     pub json: bool,
 
-    /// Write every collision to a file of comma-separated values
-    #[arg(long, value_name = "FILE.csv")]
+    /// Write every collision to a file of comma-separated values, or as arrays of NumPy if
+    /// it ends in .npz
+    #[arg(long, value_name = "FILE")]
     pub events: Option<PathBuf>,
+
+    /// Write only collisions from this time on
+    #[arg(long, value_name = "TIME", requires = "events", value_parser = time,
+          allow_negative_numbers = true)]
+    pub events_from: Option<f64>,
+
+    /// Write only the first collision, and of the others every Nth
+    #[arg(long, value_name = "N", requires = "events", allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    pub events_every: Option<u64>,
+
+    /// Write only collisions in which these bodies take part, as 3,7,20-29
+    #[arg(long, value_name = "BODY,…", requires = "events", value_delimiter = ',',
+          value_parser = bodies)]
+    pub events_of: Vec<RangeInclusive<u32>>,
 
     /// Write the final state to a file of comma-separated values, or in a format of
     /// --record by its ending
@@ -307,6 +327,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("it must be a finite number greater than 0".to_owned()),
+    }
+}
+
+/// Takes a time since the start.
+fn time(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("it must be a finite number, 0 or more".to_owned()),
     }
 }
 

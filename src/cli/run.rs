@@ -15,8 +15,9 @@ use carom::surroundings::Shape;
 use super::arguments::RunArguments;
 use super::asked::Asked;
 use super::conclusion::Ended;
+use super::events::{AskedEvents, Events};
 use super::failure::Failure;
-use super::journey::{Events, Journey, OnTheWay};
+use super::journey::{Journey, OnTheWay};
 use super::kept::{Keeping, Kept, options};
 use super::measured::Measured;
 use super::outlook;
@@ -87,6 +88,8 @@ fn run_in<T: Compiled>(
     let keeping = Keeping::of(arguments, file)?;
     let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
+    let is_kept = keeping.is_some() || kept.is_some();
+    let events = AskedEvents::of(arguments, scene.bodies.len(), is_kept)?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
     let before = totals_at_start(&scene)?;
     standard_output()?;
@@ -129,8 +132,11 @@ fn run_in<T: Compiled>(
         let kept = notes.and_then(|notes| notes.series.as_ref());
         Series::new(&series, file, &world, &course, equilibration, volume, kept)
     });
+    let events = events.zip(outputs.events).map(|(asked, file)| {
+        Events::new(asked, file, notes.and_then(|notes| notes.events.as_ref()))
+    });
     let on_the_way = OnTheWay {
-        events: outputs.events.map(Events::new).transpose()?,
+        events: events.transpose()?,
         record: record.transpose()?,
         series: series.transpose()?,
         keeper,

@@ -41,7 +41,9 @@ mod undo;
 mod window;
 
 use super::account::Effort;
+use super::change::Base;
 use super::interface::{EventEngine, Stretch};
+use super::later::{Elapsed, Later};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
@@ -73,6 +75,7 @@ pub(super) use snapshot::EventState;
 #[derive(Debug)]
 pub struct EventDriven<T: Real> {
     engine: Box<dyn EventEngine<T>>,
+    base: Base<T>,
 }
 
 impl<T: Compiled> EventDriven<T> {
@@ -108,7 +111,26 @@ impl<T: Compiled> EventDriven<T> {
     /// # Errors
     /// None yet for a checked scene.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
-        Ok(Self { engine: T::event_driven(scene, execution)? })
+        let base = Base::new(&scene, execution);
+        Ok(Self { engine: T::event_driven(scene, execution)?, base })
+    }
+
+    /// A scene that goes on from what has elapsed.
+    pub(super) fn later(
+        scene: Scene<T>,
+        execution: Execution,
+        elapsed: Elapsed,
+    ) -> Result<Self, EngineError> {
+        let base = Base::new(&scene, execution);
+        let engine = Later::new(scene, elapsed, |scene| T::event_driven(scene, execution))?;
+        Ok(Self { engine: Box::new(engine), base })
+    }
+
+    /// Goes on as the scene now is.
+    pub(super) fn go_on(&mut self, scene: Scene<T>) -> Result<(), EngineError> {
+        let elapsed = Elapsed::of(&*self.engine, 0);
+        *self = Self::later(scene, self.base.execution, elapsed)?;
+        Ok(())
     }
 }
 
@@ -411,6 +433,10 @@ impl<T: Real> EventDriven<T> {
         self.engine.effort()
     }
 
+    pub(super) fn base(&self) -> &Base<T> {
+        &self.base
+    }
+
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
         self.engine.save()
@@ -433,6 +459,6 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.engine.bytes()
+        self.engine.bytes() + self.base.bytes()
     }
 }

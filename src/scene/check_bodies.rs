@@ -24,10 +24,19 @@ const STATE_STEPS: f64 = 2.0;
 /// The most of its radius that a sphere of a state may be inside of another.
 const DEEPEST: f64 = 0.9;
 
+/// What has put the bodies where they are.
+#[derive(Clone, Copy)]
+pub(super) struct Sources<'a> {
+    /// The bodies of each entry, and what has put these there.
+    pub(super) ranges: &'a [Range<usize>],
+    pub(super) origins: &'a [Origin],
+    /// Of bodies that a world has left, whether each was placed since.
+    pub(super) placed: Option<&'a [bool]>,
+}
+
 /// How far bodies may overlap what they touch, by where they come from.
 struct Allowance<'a> {
-    /// The bodies of each entry, and what has put them there.
-    entries: (&'a [Range<usize>], &'a [Origin]),
+    sources: Sources<'a>,
     /// What has put all of them there, if it is one thing.
     common: Option<Origin>,
     /// How far a body of a state comes in some steps, length.
@@ -35,19 +44,22 @@ struct Allowance<'a> {
 }
 
 impl<'a> Allowance<'a> {
-    fn new(ranges: &'a [Range<usize>], origins: &'a [Origin], way: f64) -> Self {
+    fn new(sources: Sources<'a>, way: f64) -> Self {
         let kind = core::mem::discriminant;
-        let first = origins.first();
-        let common =
-            first.filter(|first| origins.iter().all(|origin| kind(origin) == kind(first))).copied();
-        Self { entries: (ranges, origins), common, way }
+        let (first, mut all) = (sources.origins.first(), sources.origins.iter());
+        let common = first.filter(|first| all.all(|origin| kind(origin) == kind(first))).copied();
+        let common = common.filter(|_| sources.placed.is_none());
+        Self { sources, common, way }
     }
 
     fn origin(&self, body: usize) -> Origin {
         if let Some(origin) = self.common {
             return origin;
         }
-        let (ranges, origins) = self.entries;
+        let Sources { ranges, origins, placed } = self.sources;
+        if placed.is_some_and(|placed| placed[body]) {
+            return Origin::Described;
+        }
         origins[ranges.partition_point(|range| range.end <= body)]
     }
 
@@ -82,17 +94,16 @@ pub(super) fn bodies<T: Real>(
     asked: &Description<T>,
     periodic: Option<PeriodicBox<T>>,
     mut bodies: Bodies<T>,
-    (ranges, origins): (&[Range<usize>], &[Origin]),
+    sources: Sources<'_>,
 ) -> Result<Bodies<T>, SceneError> {
     let of_entry = |(body, key, problem): Found| {
-        let entry = ranges.partition_point(|range| range.end <= body);
+        let entry = sources.ranges.partition_point(|range| range.end <= body);
         asked.origin.error_in(&format!("spheres[{entry}]"), (key, problem))
     };
-    let way = way(asked, &bodies);
-    let allowance = Allowance::new(ranges, origins, way);
+    let allowance = Allowance::new(sources, way(asked, &bodies));
     figures(&bodies, asked.surface).map_err(of_entry)?;
     motion(&bodies).map_err(of_entry)?;
-    orientation(&bodies).map_err(of_entry)?;
+    orientation(&bodies, &allowance).map_err(of_entry)?;
     if let Some(space) = &periodic {
         if asked.encounters == Encounters::All {
             sides(space, &bodies).map_err(|problem| asked.origin.error("periodic", problem))?;
@@ -141,11 +152,11 @@ fn motion<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
 }
 
 /// Orientations of bodies that came ready.
-fn orientation<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+fn orientation<T: Real>(bodies: &Bodies<T>, allowance: &Allowance<'_>) -> Result<(), Found> {
     if bodies.orientation.is_none() {
         return Ok(());
     }
-    for body in 0..bodies.len() {
+    for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
         let m = bodies.orientation_of(body);
         if !is_rotation(m) {
             let found = format!("no rotation for body {body}");
@@ -326,58 +337,49 @@ fn direction<T: Real>(vector: Vec3<T>) -> String {
     }
 }
 
-/// No two bodies overlap, but those that a world has left so. The largest go first, and
-/// each then meets only bodies of its own size or larger: the time is linear in their
-/// number.
+/// No two bodies overlap, but those that a world has left so, which are held against the
+/// others only. The largest go first, and each then meets only bodies of its own size or
+/// larger: the time is linear in their number.
 fn overlaps<T: Real>(
     periodic: Option<PeriodicBox<T>>,
     bodies: &Bodies<T>,
     allowance: &Allowance<'_>,
 ) -> Result<(), Found> {
-    let left = (0..bodies.len()).filter(|body| allowance.is_left(*body)).count();
-    if left == bodies.len() {
+    let all = 0..bodies.len() as u32;
+    let is_left = |body: &u32| allowance.is_left(*body as usize);
+    let placed: Vec<u32> = all.clone().filter(|body| !is_left(body)).collect();
+    let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
+    let whole = |body: u32| bodies.radius.of(body as usize).to_f64();
+    // Spheres that may overlap are as smaller ones that may not.
+    let radius = |body: u32| whole(body) - allowance.of(body as usize, whole(body));
+    let greatest = placed.iter().map(|body| radius(*body)).fold(0.0, f64::max);
+    if placed.is_empty() {
         return Ok(());
     }
     let space = periodic.map(|space| {
         let corner = |point: Vec3<T>| point.to_array().map(T::to_f64);
         PeriodicBox::new(corner(space.lower), corner(space.upper))
     });
-    let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
-    let whole = |body: u32| bodies.radius.of(body as usize).to_f64();
-    // Spheres that may overlap are as smaller ones that may not.
-    let radius = |body: u32| whole(body) - allowance.of(body as usize, whole(body));
-    let greatest = (0..bodies.len() as u32).map(radius).fold(0.0, f64::max);
-    let table = |len| Neighbours::new(len, greatest, T::EPSILON.to_f64(), space);
-    let mut all = table(bodies.len());
-    // What a world has left is held against the others only.
-    let mut placed = (left > 0).then(|| table(bodies.len() - left));
+    let mut table = Neighbours::new(placed.len(), greatest, T::EPSILON.to_f64(), space);
+    let overlap = |table: &Neighbours, body: u32| {
+        let Some(other) = table.overlapping(center(body), radius(body)) else { return Ok(()) };
+        let (a, b) = (body.min(other.id), body.max(other.id));
+        let soft = [a, b].map(|body| whole(body) - radius(body));
+        let (depth, found) = (other.depth + soft[0] + soft[1], b as usize);
+        Err((found, "", Problem::Overlap { a: a as usize, b: found, depth }))
+    };
     let finest = match &bodies.radius {
         PerBody::Same(_) if allowance.common.is_some() => 0,
-        _ => (0..bodies.len() as u32).map(|body| all.level(radius(body))).max().unwrap_or(0),
+        _ => placed.iter().map(|body| table.level(radius(*body))).max().unwrap_or(0),
     };
     for level in 0..=finest {
-        let mut order: Vec<u32> = (0..bodies.len() as u32)
-            .filter(|body| finest == 0 || all.level(radius(*body)) == level)
-            .collect();
-        order.sort_by_cached_key(|body| all.order(level, center(*body)));
+        let on_level = |body: &u32| finest == 0 || table.level(radius(*body)) == level;
+        let mut order: Vec<u32> = placed.iter().copied().filter(on_level).collect();
+        order.sort_by_cached_key(|body| table.order(level, center(*body)));
         for body in order {
-            let is_left = allowance.is_left(body as usize);
-            let others = placed.as_ref().filter(|_| is_left).unwrap_or(&all);
-            if let Some(other) = others.overlapping(center(body), radius(body)) {
-                let (a, b) = (body.min(other.id), body.max(other.id));
-                let soft = [a, b].map(|body| whole(body) - radius(body));
-                let depth = other.depth + soft[0] + soft[1];
-                return Err((
-                    b as usize,
-                    "",
-                    Problem::Overlap { a: a as usize, b: b as usize, depth },
-                ));
-            }
-            all.insert(body, center(body), radius(body));
-            if let Some(placed) = placed.as_mut().filter(|_| !is_left) {
-                placed.insert(body, center(body), radius(body));
-            }
+            overlap(&table, body)?;
+            table.insert(body, center(body), radius(body));
         }
     }
-    Ok(())
+    all.filter(is_left).try_for_each(|body| overlap(&table, body))
 }

@@ -1,5 +1,6 @@
 //! Checked: a scene without a mistake, and the way from its description.
 
+use super::check_bodies::Sources;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
 use super::origin::Origin;
@@ -83,7 +84,11 @@ impl<T: Real> Scene<T> {
     /// # Errors
     /// If they cannot be in the scene: see [`SceneBuilder::build`](super::SceneBuilder::build).
     pub fn with_bodies(&self, bodies: Bodies<T>) -> Result<Self, SceneError> {
-        let asked = Description {
+        Self::new(self.description(bodies))
+    }
+
+    fn description(&self, bodies: Bodies<T>) -> Description<T> {
+        Description {
             engine: self.engine,
             duration: self.duration,
             gravity: self.gravity,
@@ -93,23 +98,57 @@ impl<T: Real> Scene<T> {
                 .periodic
                 .map_or(Periodicity::Open, |space| Periodicity::Box(GivenBox::rounded(space))),
             surroundings: self.surroundings.iter().copied().map(GivenShape::rounded).collect(),
-            stepped: self.stepped.clone(),
+            stepped: self.stepped,
             entries: vec![Entry::Ready(Box::new(bodies))],
             ..Description::new(self.name.clone(), Origin::code(&self.name))
-        };
-        Self::new(asked)
+        }
+    }
+
+    /// The same without bodies.
+    pub(crate) fn without_bodies(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            engine: self.engine,
+            duration: self.duration,
+            gravity: self.gravity,
+            surface: self.surface,
+            encounters: self.encounters,
+            periodic: self.periodic,
+            surroundings: self.surroundings.clone(),
+            stepped: self.stepped,
+            bodies: Bodies::none(),
+        }
+    }
+
+    /// [`with_bodies`](Scene::with_bodies) where a world has left them, but for those that
+    /// are `placed`, which are checked.
+    pub(crate) fn with_placed(
+        &self,
+        bodies: Bodies<T>,
+        placed: &[bool],
+    ) -> Result<Self, SceneError> {
+        Self::checked(self.description(bodies.left_by_world()), Some(placed))
     }
 
     /// Checks a description, places the spheres, and checks what they make
     /// together.
-    pub(super) fn new(mut asked: Description<T>) -> Result<Self, SceneError> {
+    pub(super) fn new(asked: Description<T>) -> Result<Self, SceneError> {
+        Self::checked(asked, None)
+    }
+
+    fn checked(mut asked: Description<T>, placed: Option<&[bool]>) -> Result<Self, SceneError> {
         check::settings(&asked)?;
         let ranges = check::entries(&asked)?;
         let periodic = generate::periodic_box(&asked)?;
         let origins: Vec<_> = asked.entries.iter().map(Entry::known_origin).collect();
         let bodies = generate::bodies(&mut asked, periodic.map(|given| given.exact), &ranges)?;
         let periodic = periodic.map(|given| given.rounded);
-        let bodies = check_bodies::bodies(&asked, periodic, bodies, (&ranges, &origins))?;
+        let bodies = check_bodies::bodies(
+            &asked,
+            periodic,
+            bodies,
+            Sources { ranges: &ranges, origins: &origins, placed },
+        )?;
         Ok(Self {
             name: asked.name,
             engine: asked.engine,

@@ -280,7 +280,7 @@ impl<T: Real> Engine<T> for Driver<T> {
     fn save(&self) -> Snapshot {
         let is_too_fast = self.team.workers[0].is_too_fast;
         let state = snapshot::save(&self.store, &self.clock, is_too_fast);
-        Snapshot { account: self.account().clone(), state: State::EventDriven(state) }
+        Snapshot::of(self.account(), State::EventDriven(state))
     }
 
     #[cfg(feature = "files")]
