@@ -14,6 +14,7 @@
 //! ```
 
 mod builder;
+mod edit;
 mod origin;
 
 use crate::column::Column;

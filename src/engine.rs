@@ -6,6 +6,7 @@ mod compiled;
 mod event;
 mod event_driven;
 mod frame;
+mod handles;
 mod interface;
 mod later;
 mod plan;
@@ -24,6 +25,7 @@ pub use change::{Change, ChangeError};
 pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
+pub use handles::BodyHandle;
 pub use plan::{Plan, Turning};
 #[cfg(feature = "files")]
 pub use snapshot::Snapshot;

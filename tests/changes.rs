@@ -131,7 +131,7 @@ fn change<T: Compiled>(
     let mut change = world.change();
     for _ in 0..3 {
         let one = body(noise);
-        match (noise() * 7.0) as usize {
+        match (noise() * 8.0) as usize {
             0 => change.set_velocity(one, vector(noise, 4.0 * length / time)),
             1 => change.set_spin(one, vector(noise, 4.0 / time)),
             2 => change.apply_impulse(one, vector(noise, 4.0 * mass * length / time)),
@@ -146,12 +146,19 @@ fn change<T: Compiled>(
                 let smaller = change.bodies().radius.of(one) * T::from_f64(0.5 + 0.5 * noise());
                 change.set_radius(one, smaller)
             }
+            6 => change.remove(one),
             _ => change.set_gravity(vector(noise, length / time / time)),
         };
     }
-    let state = change.bodies().clone();
+    let (state, handles): (_, Vec<_>) =
+        (change.bodies().clone(), (0..count).map(|body| change.handle_of(body)).collect());
     change.apply().unwrap();
-    state
+    // Those that are left are found by their handles.
+    let at = |body: &usize| world.index_of(handles[*body].unwrap());
+    let left: Vec<usize> = (0..count).filter(|body| at(body).is_some()).collect();
+    assert_eq!(left.len(), world.bodies().len());
+    assert!(left.iter().enumerate().all(|(index, body)| at(body) == Some(index)));
+    if left.len() == count { state } else { state.only(&left) }
 }
 
 fn check<T: Compiled>(text: &str, length: f64, time: f64) {
@@ -182,6 +189,10 @@ fn check<T: Compiled>(text: &str, length: f64, time: f64) {
             let mut again =
                 World::resume(start.clone(), Execution::new().threads(1), &snapshot).unwrap();
             assert_eq!(again.time(), before);
+            let names = |world: &World<T>| {
+                (0..start.bodies.len()).map(|body| world.handle_of(body)).collect::<Vec<_>>()
+            };
+            assert_eq!(names(&again), names(&world));
             assert_eq!(tell(&mut again, 0.5 * time), expected, "{engine:?} {round} again");
             assert_eq!((again.time(), again.steps()), (world.time(), world.steps()));
             assert_eq!(again.collisions(), world.collisions());
@@ -233,6 +244,56 @@ fn bodies_are_moved_to_where_there_is_room() {
             }
         }
         assert!(moved > 5 && moved < 55, "{engine:?}: {moved}");
+    }
+}
+
+/// Bodies come and go while time goes by, and each is found again.
+#[test]
+fn bodies_come_and_go() {
+    for engine in [EngineKind::EventDriven, EngineKind::Stepped] {
+        let start = scene::<f64>(FLUID, engine);
+        let side = start.periodic.unwrap().sides().x;
+        let mut world = World::new(start, Execution::default()).unwrap();
+        let mut noise = noise(8);
+        let mut known: Vec<_> = (0..108).map(|body| world.handle_of(body).unwrap()).collect();
+        let (mut added, mut met) = (0, 0);
+        for _ in 0..40 {
+            met += tell(&mut world, 0.0625).events.len();
+            let gone = (noise() * known.len() as f64) as usize;
+            let place = [[(); 3].map(|()| side * noise())];
+            let small = Bodies::from_positions(&place);
+            let small = small.velocities(&[[1.0, 0.0, 0.0]]).radius(0.125).build().unwrap();
+            let kept = world.bodies();
+            let mut change = world.change();
+            let new = change.add(&small);
+            let handle = change.handle_of(new.start).unwrap();
+            assert!(!known.contains(&handle));
+            change.remove(gone);
+            if change.apply().is_err() {
+                assert_eq!(world.bodies(), kept);
+                assert_eq!(world.index_of(handle), None);
+                continue;
+            }
+            added += 1;
+            assert_eq!(world.index_of(known.remove(gone)), None);
+            known.push(handle);
+            for (index, handle) in known.iter().enumerate() {
+                assert_eq!(world.index_of(*handle), Some(index));
+                assert_eq!(world.handle_of(index), Some(*handle));
+            }
+            let bodies = world.bodies();
+            assert_eq!((bodies.len(), world.plan().bodies), (108, 108));
+            assert_eq!(bodies.radius.of(107), 0.125);
+            let same = |body: usize| bodies.position_of(body) == kept.position_of(body);
+            assert!((0..gone).all(same));
+            if gone < 107 {
+                assert_eq!(bodies.velocity_of(gone), kept.velocity_of(gone + 1));
+            }
+        }
+        assert!(added > 5 && met > 50, "{engine:?}: {added} {met}");
+        let mut change = world.change();
+        (0..108).for_each(|body| act(change.remove(body)));
+        assert!(change.apply().is_err());
     }
 }
 
@@ -316,6 +377,20 @@ fn cost() {
             change.apply().unwrap();
             println!("{engine:?}: {bodies} kicked in {:?}", clock.elapsed());
         }
+        let clock = std::time::Instant::now();
+        let more: Vec<[f64; 3]> =
+            world.bodies().position[0][..973].iter().map(|x| [*x, 0.0, 0.0]).collect();
+        let mut change = world.change();
+        (0..973).for_each(|body| act(change.remove(100 * body)));
+        change.apply().unwrap();
+        println!("{engine:?}: {} removed in {:?}", more.len(), clock.elapsed());
+        let clock = std::time::Instant::now();
+        let tree = world.sphere_tree();
+        let built_tree = clock.elapsed();
+        let clock = std::time::Instant::now();
+        let found: usize = more.iter().map(|place| tree.in_sphere(*place, 1.0).len()).sum();
+        let asked = clock.elapsed() / 973;
+        println!("{engine:?}: tree in {built_tree:?}, a sphere of {found}/973 in {asked:?}");
         println!("{engine:?}: built in {built:?}, 20 steps of time in {advanced:?}");
     }
 }

@@ -97,7 +97,7 @@ pub struct Events {
 }
 
 enum Writer {
-    Rows(EventWriter<OutputFile>),
+    Rows(Box<EventWriter<OutputFile>>),
     Arrays(Box<EventArrays<OutputFile>>),
 }
 
@@ -121,8 +121,8 @@ impl Events {
         let filter = asked.filter.after(kept.map_or(0, |kept| kept.passed));
         let writer = match (asked.is_archive, file.is_begun()) {
             (true, _) => EventArrays::new(&path, file).map(|arrays| Writer::Arrays(arrays.into())),
-            (false, true) => Ok(Writer::Rows(EventWriter::further(file))),
-            (false, false) => EventWriter::new(file).map(Writer::Rows),
+            (false, true) => Ok(Writer::Rows(EventWriter::further(file).into())),
+            (false, false) => EventWriter::new(file).map(|rows| Writer::Rows(rows.into())),
         };
         match writer {
             Ok(writer) => Ok(Self { path, filter, writer }),

@@ -1,7 +1,10 @@
 //! Change: what a program does to a world between two stretches of time.
 
+use core::ops::Range;
+
+use super::handles::Handles;
 use super::later::Elapsed;
-use super::{Compiled, EngineError, EventDriven, Execution, Stepped, World};
+use super::{BodyHandle, Compiled, EngineError, EventDriven, Execution, Stepped, World};
 use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
 use crate::scene::{Scene, SceneError};
@@ -34,11 +37,17 @@ pub(super) struct Base<T: Real> {
     /// Without bodies.
     scene: Scene<T>,
     pub execution: Execution,
+    pub handles: Handles,
 }
 
 impl<T: Real> Base<T> {
     pub fn new(scene: &Scene<T>, execution: Execution) -> Self {
-        Self { scene: scene.without_bodies(), execution }
+        Self::later(scene, execution, Handles::new(scene.bodies.len()))
+    }
+
+    /// Of a world that had others before.
+    pub fn later(scene: &Scene<T>, execution: Execution, handles: Handles) -> Self {
+        Self { scene: scene.without_bodies(), execution, handles }
     }
 
     pub fn periodic(&self) -> Option<PeriodicBox<T>> {
@@ -47,7 +56,7 @@ impl<T: Real> Base<T> {
 
     /// The bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.scene.surroundings.as_slice())
+        size_of_val(self.scene.surroundings.as_slice()) + self.handles.bytes()
     }
 }
 
@@ -69,6 +78,9 @@ impl<T: Real> Target<'_, T> {
 
 /// A change of a world, under way: all of it takes effect at once, by
 /// [`apply`](Change::apply), or none of it. Bodies are named by their indices in the scene.
+///
+/// Bodies that are added come last, and those that are removed let the ones behind them move
+/// up: by [`BodyHandle`]s each is found again.
 ///
 /// A changed world goes on, bit by bit, as a new world that is built in that state: its
 /// bodies with what was changed, in the same scene under the gravity that it has now. Time,
@@ -109,8 +121,11 @@ pub struct Change<'a, T: Real> {
     target: Target<'a, T>,
     bodies: Bodies<T>,
     gravity: Vec3<T>,
-    /// Which bodies were moved or grown.
+    /// Which bodies were moved, grown or added.
     placed: Vec<bool>,
+    /// Which are to be removed, if any.
+    removed: Vec<bool>,
+    handles: Handles,
     is_changed: bool,
     mistake: Option<ChangeError>,
 }
@@ -118,7 +133,8 @@ pub struct Change<'a, T: Real> {
 impl<'a, T: Real> Change<'a, T> {
     fn new(target: Target<'a, T>, bodies: Bodies<T>, gravity: Vec3<T>) -> Self {
         let placed = vec![false; bodies.len()];
-        Self { target, bodies, gravity, placed, is_changed: false, mistake: None }
+        let (removed, handles) = (placed.clone(), target.base().handles.clone());
+        Self { target, bodies, gravity, placed, removed, handles, is_changed: false, mistake: None }
     }
 
     /// The bodies with what is changed so far.
@@ -220,6 +236,36 @@ impl<'a, T: Real> Change<'a, T> {
         })
     }
 
+    /// Adds bodies behind the others, and gives their indices in this change: if others are
+    /// removed they are less in the world.
+    pub fn add(&mut self, bodies: &Bodies<T>) -> Range<usize> {
+        let start = self.bodies.len();
+        self.bodies = self.bodies.with(bodies);
+        self.handles.add(bodies.len());
+        self.placed.resize(self.bodies.len(), true);
+        self.removed.resize(self.bodies.len(), false);
+        self.is_changed |= !bodies.is_empty();
+        start..self.bodies.len()
+    }
+
+    /// Removes a body. In this change all keep their indices; in the world those behind it
+    /// move up.
+    pub fn remove(&mut self, body: usize) -> &mut Self {
+        self.with(body, |change| change.removed[body] = true)
+    }
+
+    /// The name of a body of this change, which it has in the world from then on.
+    #[must_use]
+    pub fn handle_of(&self, body: usize) -> Option<BodyHandle> {
+        self.handles.of(body)
+    }
+
+    /// The index that a body of this name has in this change, if there is one.
+    #[must_use]
+    pub fn index_of(&self, handle: BodyHandle) -> Option<usize> {
+        self.handles.index_of(handle)
+    }
+
     /// Gives the world another gravity, length per time².
     pub fn set_gravity(&mut self, gravity: impl Into<Vec3<T>>) -> &mut Self {
         self.gravity = gravity.into();
@@ -232,21 +278,27 @@ impl<T: Compiled> Change<'_, T> {
     /// Lets all of it take effect, and the world go on from there.
     ///
     /// # Errors
-    /// If a body does not exist, is put into another one or out of its container, or if a
-    /// figure cannot be: the world is then as it was before the change.
+    /// If a body does not exist, is put into another one or out of its container, if a figure
+    /// cannot be, or if no body is left: the world is then as it was before the change.
     pub fn apply(self) -> Result<(), ChangeError> {
-        let Self { target, bodies, gravity, placed, is_changed, mistake } = self;
-        if let Some(mistake) = mistake {
+        let Self { target, mut bodies, gravity, mut placed, removed, mut handles, .. } = self;
+        if let Some(mistake) = self.mistake {
             return Err(mistake);
         }
-        if !is_changed {
+        if !self.is_changed {
             return Ok(());
+        }
+        if removed.contains(&true) {
+            let kept: Vec<usize> = (0..bodies.len()).filter(|body| !removed[*body]).collect();
+            bodies = bodies.only(&kept);
+            placed = kept.iter().map(|&body| placed[body]).collect();
+            handles.keep(&kept);
         }
         let base = Scene { gravity, ..target.base().scene.clone() };
         let scene = base.with_placed(bodies, &placed)?;
         match target {
-            Target::Stepped(world) => world.go_on(scene)?,
-            Target::EventDriven(world) => world.go_on(scene)?,
+            Target::Stepped(world) => world.go_on(scene, handles)?,
+            Target::EventDriven(world) => world.go_on(scene, handles)?,
         }
         Ok(())
     }
@@ -297,6 +349,46 @@ impl<T: Real> EventDriven<T> {
     }
 }
 
+impl<T: Real> World<T> {
+    fn base(&self) -> &Base<T> {
+        match self {
+            Self::Stepped(world) => world.base(),
+            Self::EventDriven(world) => world.base(),
+        }
+    }
+
+    /// A name of the body with an index, which it keeps when others are added or removed;
+    /// `None` if there is no such body.
+    ///
+    /// ```
+    /// use carom::engine::{Execution, World};
+    /// use carom::{Bodies, Scene, Sphere};
+    ///
+    /// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5);
+    /// let scene = Scene::<f64>::builder().dt(0.125).sphere(ball(0.0)).sphere(ball(3.0)).build()?;
+    /// let mut world = World::new(scene, Execution::default())?;
+    /// let second = world.handle_of(1).ok_or("it is there")?;
+    /// let mut change = world.change();
+    /// let added = change.add(&Bodies::from_positions(&[[6.0, 0.0, 0.0]]).radius(0.5).build()?);
+    /// let third = change.handle_of(added.start).ok_or("it is there")?;
+    /// change.remove(0);
+    /// change.apply()?;
+    /// assert_eq!((world.index_of(second), world.index_of(third)), (Some(0), Some(1)));
+    /// assert_eq!(world.bodies().position_of(1).x, 6.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn handle_of(&self, body: usize) -> Option<BodyHandle> {
+        self.base().handles.of(body)
+    }
+
+    /// The index of the body of this name now; `None` if it was removed.
+    #[must_use]
+    pub fn index_of(&self, handle: BodyHandle) -> Option<usize> {
+        self.base().handles.index_of(handle)
+    }
+}
+
 impl<T: Compiled> World<T> {
     /// A world of a scene that goes on from what has elapsed.
     #[cfg(feature = "files")]
@@ -304,12 +396,15 @@ impl<T: Compiled> World<T> {
         scene: Scene<T>,
         execution: Execution,
         elapsed: Elapsed,
+        handles: Handles,
     ) -> Result<Self, EngineError> {
         use crate::scene::EngineKind;
         Ok(match scene.engine {
-            EngineKind::Stepped => Self::Stepped(Stepped::later(scene, execution, elapsed)?),
+            EngineKind::Stepped => {
+                Self::Stepped(Stepped::later(scene, execution, elapsed, handles)?)
+            }
             EngineKind::EventDriven => {
-                Self::EventDriven(EventDriven::later(scene, execution, elapsed)?)
+                Self::EventDriven(EventDriven::later(scene, execution, elapsed, handles)?)
             }
         })
     }

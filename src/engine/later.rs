@@ -6,9 +6,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::account::{Effort, Totals};
+#[cfg(feature = "files")]
+use super::handles::Handles;
 use super::interface::{Engine, EventEngine, StepEngine, Stretch};
 #[cfg(feature = "files")]
-use super::snapshot::{Misfit, SavedStart, Snapshot};
+use super::snapshot::{Misfit, SavedLater, SavedStart, Snapshot};
 use super::{Collisions, EngineError, Event, Listener, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -116,14 +118,20 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
     #[cfg(feature = "files")]
     fn save(&self) -> Snapshot {
         let (gravity, bodies) = &self.start;
-        let start = SavedStart::of(*gravity, bodies);
-        Snapshot { later: Some(Box::new((self.elapsed, self.asked, start))), ..self.engine.save() }
+        let later = SavedLater {
+            elapsed: self.elapsed,
+            asked: self.asked,
+            start: SavedStart::of(*gravity, bodies),
+            // The world knows them.
+            handles: Handles::default(),
+        };
+        Snapshot { later: Some(Box::new(later)), ..self.engine.save() }
     }
 
     #[cfg(feature = "files")]
     fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
         if let Some(later) = &saved.later {
-            (self.elapsed, self.asked) = (later.0, later.1);
+            (self.elapsed, self.asked) = (later.elapsed, later.asked);
         }
         self.engine.restore(saved)
     }

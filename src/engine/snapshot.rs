@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::account::Account;
 use super::event_driven::EventState;
+use super::handles::Handles;
 use super::later::Elapsed;
 use super::stepped::StepState;
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
@@ -40,7 +41,16 @@ pub struct Snapshot {
     pub(super) state: State,
     /// Of a world that was changed: what had elapsed before, the time that was asked for,
     /// and what it went on from.
-    pub(super) later: Option<Box<(Elapsed, Option<f64>, SavedStart)>>,
+    pub(super) later: Option<Box<SavedLater>>,
+}
+
+/// What a snapshot of a changed world has besides.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SavedLater {
+    pub elapsed: Elapsed,
+    pub asked: Option<f64>,
+    pub start: SavedStart,
+    pub handles: Handles,
 }
 
 impl Snapshot {

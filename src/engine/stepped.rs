@@ -30,6 +30,7 @@ mod state;
 mod struck;
 
 use super::change::Base;
+use super::handles::Handles;
 use super::interface::StepEngine;
 use super::later::{Elapsed, Later};
 #[cfg(feature = "files")]
@@ -109,16 +110,17 @@ impl<T: Compiled> Stepped<T> {
         scene: Scene<T>,
         execution: Execution,
         elapsed: Elapsed,
+        handles: Handles,
     ) -> Result<Self, EngineError> {
-        let base = Base::new(&scene, execution);
+        let base = Base::later(&scene, execution, handles);
         let engine = Later::new(scene, elapsed, |scene| T::stepped(scene, execution))?;
         Ok(Self { engine: Box::new(engine), base })
     }
 
     /// Goes on as the scene now is.
-    pub(super) fn go_on(&mut self, scene: Scene<T>) -> Result<(), EngineError> {
+    pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
         let elapsed = Elapsed::of(&*self.engine, self.engine.steps());
-        *self = Self::later(scene, self.base.execution, elapsed)?;
+        *self = Self::later(scene, self.base.execution, elapsed, handles)?;
         Ok(())
     }
 }
@@ -401,7 +403,11 @@ impl<T: Real> Stepped<T> {
 
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
-        self.engine.save()
+        let mut saved = self.engine.save();
+        if let Some(later) = &mut saved.later {
+            later.handles.clone_from(&self.base.handles);
+        }
+        saved
     }
 
     #[cfg(feature = "files")]

@@ -1,7 +1,7 @@
 //! World: a scene in motion, by whichever engine moves it.
 
 #[cfg(feature = "files")]
-use super::snapshot::{Misfit, Snapshot};
+use super::snapshot::{Misfit, SavedLater, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
@@ -74,9 +74,13 @@ impl<T: Compiled> World<T> {
         let mut world = match &snapshot.later {
             None => Self::new(scene, execution)?,
             Some(later) => {
-                let (elapsed, _, start) = &**later;
+                let SavedLater { elapsed, start, handles, .. } = &**later;
                 let (gravity, bodies) = start.read().map_err(misfit)?;
-                Self::later(Scene { gravity, bodies, ..scene }, execution, *elapsed)?
+                if handles.len() != bodies.len() {
+                    return Err(misfit(Misfit("bodies")));
+                }
+                let scene = Scene { gravity, bodies, ..scene };
+                Self::later(scene, execution, *elapsed, handles.clone())?
             }
         };
         let restored = match &mut world {

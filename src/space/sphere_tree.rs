@@ -13,7 +13,7 @@ use crate::vec3::Vec3;
 const DOUBLINGS: usize = 64;
 
 /// The most boxes that a ray is followed through.
-const MOST_BOXES: usize = 1 << 20;
+const MOST_BOXES: usize = 1 << 16;
 
 /// Spheres at one moment, found by place. In a periodic box they are found through its
 /// faces as well, each once: by its nearest image.
@@ -142,8 +142,8 @@ impl<T: Real> SphereTree<T> {
     }
 
     /// The first sphere in the way of a ray from a point, length, in a direction of any
-    /// length, up to a distance, length. Without a direction there is none; in a periodic
-    /// box the distance has to be finite.
+    /// length, up to a distance, length. Without a direction there is none, nor in a periodic
+    /// box without a finite distance; it is followed through 65,536 boxes at most.
     #[must_use]
     pub fn ray(
         &self,
@@ -153,6 +153,9 @@ impl<T: Real> SphereTree<T> {
     ) -> Option<RayHit<T>> {
         let (origin, direction) = (origin.into(), direction.into());
         let unit = unit(direction)?;
+        if self.periodic.is_some() && !longest.is_finite() {
+            return None;
+        }
         let mut first: Option<(T, u32, Vec3<T>)> = None;
         let mut from = |shift: Vec3<T>, longest: T| {
             let start = self.wrapped(origin) - shift;
@@ -307,7 +310,8 @@ fn along_boxes<T: Real>(
         };
         let sooner = |a: usize, b: usize| if exit(b) < exit(a) { b } else { a };
         let axis = sooner(sooner(0, 1), 2);
-        if nearest.is_some_and(|distance| distance <= exit(axis)) || !(exit(axis) < longest) {
+        let (end, is_ahead) = (exit(axis), exit(axis) < longest);
+        if nearest.is_some_and(|distance| distance <= end) || !is_ahead {
             return;
         }
         cell[axis] += if unit[axis] > T::ZERO { 1 } else { -1 };
@@ -442,6 +446,13 @@ mod tests {
         assert_eq!((inside.distance, inside.normal.x), (0.0, 1.0));
         assert_eq!(tree.nearest([1e12, 0.0, 0.0], 3), [0]);
         assert_eq!(tree.nearest([0.0; 3], 0), [0_u32; 0]);
+        let space = PeriodicBox::new([-5.0; 3], [5.0; 3]);
+        let periodic = SphereTree::new(&ball, Some(space));
+        let aside = [0.0, 3.0, 0.0];
+        assert_eq!(periodic.ray(aside, [1.0, 0.0, 0.0], f64::INFINITY), None);
+        assert_eq!(periodic.ray(aside, [1.0, 0.0, 0.0], 1e5), None);
+        let image = periodic.ray([2.0, 0.0, 0.0], [1.0, 0.0, 0.0], 1e5).unwrap();
+        assert_eq!((image.distance, image.point.x), (7.0, 9.0));
         let none = SphereTree::new(&Bodies::<f64>::none(), None);
         assert_eq!(none.nearest([0.0; 3], 2), [0_u32; 0]);
         assert_eq!(none.in_sphere([0.0; 3], 2.0), [0_u32; 0]);
