@@ -71,6 +71,19 @@ def main(program):
     near("NumPy, orientations", turns(last("qw", "qx", "qy", "qz")), axes, 1e-14)
     unwrapped = place + 10 * last("ix", "iy", "iz")
 
+    for ending in ["csv", "npz"]:
+        events = [program, "run", "scene.toml", "--events", f"events.{ending}"]
+        subprocess.run(events, check=True, capture_output=True)
+    with open("events.csv") as file:
+        collisions = list(csv.DictReader(file))
+    events = np.load("events.npz")
+    assert set(events) == set(collisions[0])
+    for name, array in events.items():
+        empty = -1 if array.dtype.kind == "i" else np.nan
+        text = [float(row[name]) if row[name] else empty for row in collisions]
+        assert np.array_equal(array, text, equal_nan=True), name
+    print(f"NumPy, events: {len(collisions)} in {len(events)} arrays")
+
     import MDAnalysis
 
     kind = dict(format="LAMMPSDUMP", topology_format="LAMMPSDUMP")

@@ -14,6 +14,8 @@
 //! ```
 
 mod builder;
+mod edit;
+mod origin;
 
 use crate::column::Column;
 use crate::lane::Lane;
@@ -22,6 +24,7 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 pub use builder::{BodiesBuilder, BodiesError};
+pub(crate) use origin::Origin;
 
 /// The three components of a vector, a column each.
 ///
@@ -93,6 +96,20 @@ impl<T: Real> PerBody<T> {
     }
 
     /// The bytes that the figures hold.
+    /// Gives one of so many bodies a value of its own.
+    pub(crate) fn set(&mut self, len: usize, index: usize, value: T) {
+        if let Self::Same(same) = *self {
+            if same == value {
+                return;
+            }
+            // What stands behind the last one is divided by.
+            *self = Self::Each(Column::from_values((0..len).map(|_| same), T::ONE));
+        }
+        if let Self::Each(column) = self {
+            column[index] = value;
+        }
+    }
+
     pub(crate) fn bytes(&self) -> usize {
         match self {
             Self::Same(_) => 0,
@@ -231,6 +248,8 @@ impl<T: Real> Figure<T> for &PerBody<T> {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Bodies<T: Real> {
+    /// What has put them where they are.
+    pub(crate) origin: Origin,
     /// Centres, length.
     pub position: Columns3<T>,
     /// Velocities of the centres, length per time.
@@ -249,6 +268,21 @@ pub struct Bodies<T: Real> {
 }
 
 impl<T: Real> Bodies<T> {
+    /// No bodies.
+    pub(crate) fn none() -> Self {
+        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
+        Self {
+            origin: Origin::Described,
+            position: nothing(),
+            velocity: nothing(),
+            spin: nothing(),
+            orientation: None,
+            radius: PerBody::Same(T::ONE),
+            mass: PerBody::Same(T::ONE),
+            inertia: PerBody::Same(T::ONE),
+        }
+    }
+
     /// Bodies with these centres, length; what else they have is set by the
     /// methods of [`BodiesBuilder`].
     ///
@@ -309,6 +343,7 @@ impl<T: Real> Bodies<T> {
         };
         let columns = |columns: &Columns3<T>| columns.each_ref().map(column);
         Bodies {
+            origin: self.origin,
             position: columns(&self.position),
             velocity: columns(&self.velocity),
             spin: columns(&self.spin),

@@ -3,6 +3,8 @@
 mod arguments;
 mod asked;
 mod closed_output;
+mod conclusion;
+mod events;
 mod explain;
 mod failure;
 mod interrupt;
@@ -23,6 +25,7 @@ mod scenes;
 mod series;
 mod study;
 mod summary;
+mod sweep;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -43,6 +46,7 @@ pub fn main() -> ExitCode {
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
             Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
+            Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
             Some(Command::Study { study }) => study.run(),
         },
         Err(answer) => return answered(&answer),

@@ -1,11 +1,14 @@
 //! Engines: what moves a scene through time.
 
 mod account;
+mod change;
 mod compiled;
 mod event;
 mod event_driven;
 mod frame;
+mod handles;
 mod interface;
+mod later;
 mod plan;
 #[cfg(feature = "files")]
 mod snapshot;
@@ -18,9 +21,11 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 pub use account::Effort;
+pub use change::{Change, ChangeError};
 pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
+pub use handles::BodyHandle;
 pub use plan::{Plan, Turning};
 #[cfg(feature = "files")]
 pub use snapshot::Snapshot;

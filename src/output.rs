@@ -8,13 +8,17 @@
 mod events;
 #[cfg(feature = "study")]
 mod frames;
+#[cfg(feature = "study")]
+mod npz;
 mod sealed;
 mod series;
 mod state;
 #[cfg(feature = "study")]
 mod whole_file;
 
-pub use events::{EVENT_COLUMNS, EventWriter};
+#[cfg(feature = "study")]
+pub use events::EventArrays;
+pub use events::{EVENT_COLUMNS, EventFilter, EventWriter};
 #[cfg(feature = "study")]
 pub use frames::{Frame, FrameFormat, FrameWriter};
 pub use sealed::{Unsealed, sealed, unsealed};

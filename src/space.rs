@@ -38,10 +38,12 @@ mod parts;
 mod periodic;
 pub(crate) mod pieces;
 mod sizes;
+mod sphere_tree;
 mod tree;
 
 pub use near_pairs::near_pairs;
 pub use parts::FixedParts;
 pub use periodic::{OpenSpace, PeriodicBox, Space};
+pub use sphere_tree::{RayHit, SphereTree};
 pub(crate) use tree::joined;
 pub use tree::{Bounds, Tree};

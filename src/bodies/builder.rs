@@ -1,6 +1,6 @@
 //! Bodies from a program's own arrays.
 
-use super::{Bodies, Columns3, PerBody};
+use super::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
 use crate::real::Real;
 
@@ -170,6 +170,7 @@ impl<'a, T: Real> BodiesBuilder<'a, T> {
         let figure = |value: &dyn Fn(usize) -> T| PerBody::from_values((0..len).map(value), T::ONE);
         let (factor, mass) = (self.inertia_factor, self.mass);
         Ok(Bodies {
+            origin: Origin::Described,
             position: columns(self.positions),
             velocity: self.velocities.map_or_else(|| zeros(len), columns),
             spin: self.spins.map_or_else(|| zeros(len), columns),

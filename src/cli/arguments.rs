@@ -1,5 +1,6 @@
 //! The arguments that the program takes.
 
+use core::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use carom::engine::{Execution, Lanes, MOST_THREADS, Order};
@@ -9,7 +10,8 @@ use carom::scene::{DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
-use super::study::Study;
+use super::events::bodies;
+use super::study::{Study, StudyFolder};
 
 /// Simulates rigid spheres in motion: free flight and elastic collisions,
 /// smooth and rough, with the same bits on every path.
@@ -26,6 +28,7 @@ Examples:
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
   carom plot gas.csv                    draw a time series of a run
+  carom sweep gas.toml --vary spheres[0].radius=0.1:0.3:5   a run for each value
   carom study error gas.toml            what each method costs, and its error
 
 Without a command, `carom` does what `carom run` does."
@@ -45,6 +48,8 @@ Examples:
   carom run gas.toml --engine event-driven       without steps, exactly
   carom run gas.toml --state end.csv             a scene file; write the end
   carom run gas.toml --events e.csv --threads 1  write down every collision
+  carom run gas.toml --events e.npz --events-from 5 --events-every 100 --events-of 0-9
+                                                 some of them, as arrays of NumPy
   carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
   carom run gas.toml --series gas.csv --series-every 0.1   figures of it in time
   carom run gas.toml --snapshot gas.snapshot --snapshot-wall 10   keep the run
@@ -83,6 +88,26 @@ Examples:
   carom plot gas.csv                    draws gas.svg
   carom plot gas.csv -o energy.svg --columns energy,kinetic,potential")]
     Plot(PlotArguments),
+    /// Run a scene once for each value of some of its keys, side by side on all cores.
+    ///
+    /// Each run is one row of a table; runs that differ in nothing but the seed give means
+    /// with their errors. An interrupted sweep goes on where it was when it is started
+    /// again, and one that is given more values or seeds keeps the runs that it has.
+    #[command(after_help = "\
+Examples:
+  carom sweep gas.toml --vary spheres[0].radius=0.1,0.2,0.3
+                                        three runs of a scene file
+  carom sweep hard-sphere-fluid --vary spheres[0].number_density=0.1:0.5:5 --seeds 8
+                                        five densities, each with eight seeds
+  carom sweep box.toml --vary gravity=[0,0,-1],[0,0,-2] --vary stepped.dt=1e-3,1e-4
+                                        each value of one with each of the other
+  carom sweep gas.toml --seeds 100 --set surface.kind=rough --engine event-driven
+                                        nothing but seeds
+
+Writes runs.csv, means.csv, report.txt and scene.toml into its folder.
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 if a run fails or a
+file cannot be written.")]
+    Sweep(SweepArguments),
     /// Measure what methods cost and how far off they are.
     #[command(after_help = "\
 Examples:
@@ -159,9 +184,25 @@ pub struct RunArguments {
     #[arg(long)]
     pub json: bool,
 
-    /// Write every collision to a file of comma-separated values
-    #[arg(long, value_name = "FILE.csv")]
+    /// Write every collision to a file of comma-separated values, or as arrays of NumPy if
+    /// it ends in .npz
+    #[arg(long, value_name = "FILE")]
     pub events: Option<PathBuf>,
+
+    /// Write only collisions from this time on
+    #[arg(long, value_name = "TIME", requires = "events", value_parser = time,
+          allow_negative_numbers = true)]
+    pub events_from: Option<f64>,
+
+    /// Write only the first collision, and of the others every Nth
+    #[arg(long, value_name = "N", requires = "events", allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..))]
+    pub events_every: Option<u64>,
+
+    /// Write only collisions in which these bodies take part, as 3,7,20-29
+    #[arg(long, value_name = "BODY,…", requires = "events", value_delimiter = ',',
+          value_parser = bodies)]
+    pub events_of: Vec<RangeInclusive<u32>>,
 
     /// Write the final state to a file of comma-separated values, or in a format of
     /// --record by its ending
@@ -205,6 +246,27 @@ pub struct RunArguments {
     #[arg(long, value_name = "FILE",
           conflicts_with_all = ["scene", "precision", "engine", "dt", "seed", "set"])]
     pub resume: Option<PathBuf>,
+}
+
+/// What `carom sweep` takes.
+#[derive(Args, Debug)]
+pub struct SweepArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// A key of the scene file and its values, as KEY=a,b,c or, for n numbers at equal
+    /// distances, KEY=from:to:n; can be given many times: each value goes with each of the
+    /// other keys
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub vary: Vec<String>,
+
+    /// Runs for each choice of values, with seeds that count up from the scene's
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub seeds: u64,
+
+    #[command(flatten)]
+    pub folder: StudyFolder,
 }
 
 /// What `carom plot` takes.
@@ -265,6 +327,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("it must be a finite number greater than 0".to_owned()),
+    }
+}
+
+/// Takes a time since the start.
+fn time(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("it must be a finite number, 0 or more".to_owned()),
     }
 }
 

@@ -56,6 +56,18 @@ pub enum Failure {
         /// How it stands, and what helps.
         why: Standstill,
     },
+    /// Runs of a sweep that came to no end.
+    #[error("{failed} of {runs} runs failed, as the column `failure` of {} says; the first: {first}", path.display())]
+    Runs {
+        /// How many failed.
+        failed: usize,
+        /// Of how many.
+        runs: usize,
+        /// The table of the runs.
+        path: PathBuf,
+        /// Why the first did.
+        first: String,
+    },
     /// A snapshot that a run cannot go on from.
     #[error("--resume: {}: {reason}", path.display())]
     Resume {
@@ -103,6 +115,7 @@ impl Failure {
             },
             Self::Engine(_)
             | Self::Stalled { .. }
+            | Self::Runs { .. }
             | Self::Write(_)
             | Self::Print(_)
             | Self::NotFinite { .. } => 1,

@@ -3,21 +3,20 @@
 
 use core::cell::OnceCell;
 use core::time::Duration;
-use std::path::PathBuf;
 use std::time::Instant;
 
-use carom::engine::{EngineError, Event, World};
+use carom::engine::World;
 use carom::observe::{Energy, Images, Sample, Temperature};
-use carom::output::EventWriter;
 use carom::real::Real;
 use carom::space::PeriodicBox;
 use carom::study::Course;
 
+use super::events::Events;
 use super::failure::Failure;
 use super::interrupt;
 use super::kept::{Keeper, Notes};
 use super::measured::Measured;
-use super::output_file::{KeptFile, OutputError, OutputFile};
+use super::output_file::OutputFile;
 use super::progress::Progress;
 use super::recording::Recorder;
 use super::series::Series;
@@ -27,7 +26,7 @@ const STRETCH: Duration = Duration::from_millis(50);
 
 /// What a run writes on its way.
 pub struct OnTheWay {
-    /// Every collision.
+    /// Collisions.
     pub events: Option<Events>,
     /// Frames.
     pub record: Option<Recorder>,
@@ -162,7 +161,7 @@ impl<T: Real> Journey<T> {
             length: self.course.length(),
             measured: self.measured.clone(),
             images: self.images.as_ref().map(|(images, _)| images.counts().to_vec()),
-            events: events.as_mut().map(Events::keep).transpose()?.flatten(),
+            events: events.as_mut().map(Events::keep).transpose()?,
             record: record.as_mut().map(Recorder::keep).transpose()?,
             series: series.as_mut().map(Series::keep).transpose()?,
         };
@@ -218,47 +217,5 @@ impl<T: Real> Journey<T> {
     /// What the figures of the summary are taken from.
     pub fn measured(&self) -> &Measured {
         &self.measured
-    }
-}
-
-/// An events file under way.
-pub struct Events {
-    path: PathBuf,
-    writer: EventWriter<OutputFile>,
-}
-
-impl Events {
-    /// Collisions into an open file, after those that it has.
-    pub fn new(file: OutputFile) -> Result<Self, OutputError> {
-        let path = file.path().to_path_buf();
-        if file.is_begun() {
-            return Ok(Self { path, writer: EventWriter::further(file) });
-        }
-        match EventWriter::new(file) {
-            Ok(writer) => Ok(Self { path, writer }),
-            Err(source) => Err(OutputError::Write { path, source }),
-        }
-    }
-
-    /// Writes down the collisions of a stretch of the way.
-    fn advance<T: Real>(
-        &mut self,
-        stretch: impl FnOnce(&mut dyn FnMut(&Event<T>)) -> Result<bool, EngineError>,
-    ) -> Result<bool, Failure> {
-        let result = stretch(&mut |event| self.writer.record(event));
-        self.writer
-            .check()
-            .map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
-        Ok(result?)
-    }
-
-    /// Brings all collisions so far to the disk, and says what is to be remembered.
-    fn keep(&mut self) -> Result<Option<KeptFile>, OutputError> {
-        let kept = self.writer.flush().and_then(OutputFile::keep);
-        kept.map_err(|source| OutputError::Write { path: self.path.clone(), source })
-    }
-
-    fn finish(self) -> Result<OutputFile, OutputError> {
-        self.writer.finish().map_err(|source| OutputError::Write { path: self.path, source })
     }
 }

@@ -16,10 +16,11 @@ use carom::study::{Course, Schedule};
 use serde::{Deserialize, Serialize};
 
 use super::arguments::RunArguments;
+use super::events::{KeptEvents, shown};
 use super::failure::Failure;
 use super::interrupt;
 use super::measured::Measured;
-use super::output_file::{Destination, KeptFile, OutputError};
+use super::output_file::{Destination, OutputError};
 use super::recording::KeptFrames;
 use super::series::KeptSeries;
 
@@ -43,7 +44,7 @@ pub struct Notes {
     pub measured: Measured,
     /// The boxes of a periodic space that bodies have moved through.
     pub images: Option<Vec<[i32; 3]>>,
-    pub events: Option<KeptFile>,
+    pub events: Option<KeptEvents>,
     pub record: Option<KeptFrames>,
     pub series: Option<KeptSeries>,
 }
@@ -206,6 +207,7 @@ pub fn options(arguments: &RunArguments) -> String {
         ("--snapshot", &arguments.snapshot),
     ];
     let times = [
+        ("--events-from", arguments.events_from),
         ("--record-every", arguments.record_every),
         ("--series-every", arguments.series_every),
         ("--snapshot-every", arguments.snapshot_every),
@@ -221,6 +223,13 @@ pub fn options(arguments: &RunArguments) -> String {
         if let Some(time) = time {
             typed += &format!(" {option} {time:?}");
         }
+    }
+    if let Some(every) = arguments.events_every {
+        typed += &format!(" --events-every {every}");
+    }
+    if !arguments.events_of.is_empty() {
+        let ranges: Vec<String> = arguments.events_of.iter().map(shown).collect();
+        typed += &format!(" --events-of {}", ranges.join(","));
     }
     typed
 }

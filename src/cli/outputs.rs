@@ -69,7 +69,7 @@ impl Outputs {
             let file = path.map(|path| OutputFile::open_part(path, kept)).transpose();
             file.map_err(refused(option))
         };
-        let kept_events = notes.and_then(|notes| notes.events.as_ref());
+        let kept_events = notes.and_then(|notes| notes.events.as_ref()?.file.as_ref());
         let kept_record = notes.and_then(|notes| notes.record.as_ref()?.file.as_ref());
         let kept_series = notes.and_then(|notes| notes.series.as_ref()?.file.as_ref());
         Ok(Self {

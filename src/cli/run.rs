@@ -3,10 +3,9 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
+use carom::contact::Surface;
 use carom::engine::{Compiled, EngineError, World};
-use carom::observe::{
-    Standstill, Temperature, Totals, Unresolved, fall_energy, not_finite, state_hash, unresolved,
-};
+use carom::observe::{Standstill, Totals, Unresolved, fall_energy, unresolved};
 use carom::output::{Frame, FrameFormat, FrameWriter, write_state};
 use carom::real::Real;
 use carom::scene::{Precision, Scene, SceneFile};
@@ -15,8 +14,10 @@ use carom::surroundings::Shape;
 
 use super::arguments::RunArguments;
 use super::asked::Asked;
+use super::conclusion::Ended;
+use super::events::{AskedEvents, Events};
 use super::failure::Failure;
-use super::journey::{Events, Journey, OnTheWay};
+use super::journey::{Journey, OnTheWay};
 use super::kept::{Keeping, Kept, options};
 use super::measured::Measured;
 use super::outlook;
@@ -26,7 +27,7 @@ use super::progress::SettingUp;
 use super::recording::{Recorder, Recording, state_format};
 use super::scene_argument::scene_file;
 use super::series::{AskedSeries, Series};
-use super::summary::{Setup, Summary, Work};
+use super::summary::{Setup, Summary};
 use super::{print, standard_output};
 
 /// Runs a scene and prints its summary.
@@ -87,21 +88,15 @@ fn run_in<T: Compiled>(
     let keeping = Keeping::of(arguments, file)?;
     let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
+    let is_kept = keeping.is_some() || kept.is_some();
+    let events = AskedEvents::of(arguments, scene.bodies.len(), is_kept)?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
-    let before = Totals::of(&scene.bodies, scene.gravity);
-    if !before.is_finite() {
-        return Err(Failure::Argument(format!(
-            "{}: the scene's energy or momentum is out of the range of numbers; \
-             choose units in which masses, speeds and lengths are nearer to 1",
-            scene.name
-        )));
-    }
+    let before = totals_at_start(&scene)?;
     standard_output()?;
     let doubt = unresolved(&scene.bodies, duration);
     let mut setup = Setup::of(&scene);
-    let volume =
-        scene.periodic.map(|space| space.sides().cast::<f64>().to_array().iter().product());
-    let gas = volume.filter(|_| scene.bodies.len() > 1).map(|volume| (volume, scene.surface));
+    let gas = gas(&scene);
+    let volume = volume(&scene);
     let fall = fall_energy(&scene);
     let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
     let snapshot = keeping.as_ref().map(|keeping| keeping.path.clone());
@@ -113,7 +108,7 @@ fn run_in<T: Compiled>(
         Some(notes) if notes.length == course.length() => notes.measured.clone(),
         Some(notes) => notes.measured.clone().stretched(),
     };
-    let (earlier, earlier_steps) = (world.collisions(), world.steps());
+    let earlier = (world.collisions(), world.steps());
     let mut journey = Journey::new(course, space, (before.energy, fall), measured);
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
@@ -137,8 +132,11 @@ fn run_in<T: Compiled>(
         let kept = notes.and_then(|notes| notes.series.as_ref());
         Series::new(&series, file, &world, &course, equilibration, volume, kept)
     });
+    let events = events.zip(outputs.events).map(|(asked, file)| {
+        Events::new(asked, file, notes.and_then(|notes| notes.events.as_ref()))
+    });
     let on_the_way = OnTheWay {
-        events: outputs.events.map(Events::new).transpose()?,
+        events: events.transpose()?,
         record: record.transpose()?,
         series: series.transpose()?,
         keeper,
@@ -150,33 +148,21 @@ fn run_in<T: Compiled>(
         .travel(&mut world, on_the_way)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
-    let after = world.totals();
     let bodies = world.bodies();
-    let not_finite = not_finite(&bodies).map(|found| found.to_string());
-    let total = || "the energy or a momentum of all bodies is no longer finite".to_owned();
-    let (time, engine) = (world.time(), setup.engine);
-    if let Some(what) = not_finite.or_else(|| (!after.is_finite()).then(total)) {
-        return Err(Failure::NotFinite { time, what, engine });
-    }
-    let temperature = Temperature::of(&bodies);
-    let hash = state_hash(&bodies);
-    let work = Work {
-        earlier,
-        earlier_steps,
-        measured: journey.measured().total(&world),
-        equilibration,
-        mean_temperature: journey.measured().mean_temperature(course.length()),
-        statistics: journey.measured().statistics(course.length()),
+    let time = world.time();
+    let ended = Ended {
+        setup,
+        world: &world,
+        bodies: &bodies,
+        course,
+        before,
         fall,
-        setup_seconds,
-        engine_seconds: journey.seconds(),
-        ..Work::of(&world)
+        equilibration,
+        measured: journey.measured(),
+        earlier,
+        seconds: [setup_seconds, journey.seconds()],
     };
-    let summary = Summary::new(setup, &before, &after, temperature, hash, &work);
-    if let Some(what) = summary.not_finite() {
-        let what = format!("the {what} of the summary is no finite number");
-        return Err(Failure::NotFinite { time, what, engine });
-    }
+    let summary = ended.summary()?;
     if let Some(doubt) = doubt.or_else(|| unresolved(&bodies, time)) {
         warn(&doubt);
     }
@@ -190,6 +176,29 @@ fn run_in<T: Compiled>(
     show(&summary, arguments.json, outputs.take_standard_output)
 }
 
+/// The volume of a periodic box.
+fn volume<T: Real>(scene: &Scene<T>) -> Option<f64> {
+    scene.periodic.map(|space| space.sides().cast::<f64>().to_array().iter().product())
+}
+
+/// The volume and the surfaces of a gas in a periodic box, if that is what a scene is.
+pub fn gas<T: Real>(scene: &Scene<T>) -> Option<(f64, Surface)> {
+    volume(scene).filter(|_| scene.bodies.len() > 1).map(|volume| (volume, scene.surface))
+}
+
+/// What is conserved, at the start of a scene.
+pub fn totals_at_start<T: Real>(scene: &Scene<T>) -> Result<Totals, Failure> {
+    let totals = Totals::of(&scene.bodies, scene.gravity);
+    if totals.is_finite() {
+        return Ok(totals);
+    }
+    Err(Failure::Argument(format!(
+        "{}: the scene's energy or momentum is out of the range of numbers; \
+         choose units in which masses, speeds and lengths are nearer to 1",
+        scene.name
+    )))
+}
+
 /// Says what of a result means nothing.
 fn warn(doubt: &Unresolved) {
     // A message that cannot be written ends no run.
@@ -197,7 +206,7 @@ fn warn(doubt: &Unresolved) {
 }
 
 /// Why a run has ended, with what the state tells of it.
-fn explained<T: Real>(failure: Failure, world: &World<T>, shapes: &[Shape<T>]) -> Failure {
+pub fn explained<T: Real>(failure: Failure, world: &World<T>, shapes: &[Shape<T>]) -> Failure {
     match failure {
         Failure::Engine(EngineError::Stalled { time, events, body }) => {
             let why = Standstill::of(&world.bodies(), shapes, world.gravity(), body as usize);

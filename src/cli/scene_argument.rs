@@ -24,6 +24,11 @@ pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
     if !arguments.set.is_empty() {
         file = file.with_values(&arguments.set)?;
     }
+    Ok(with_options(file, arguments))
+}
+
+/// The scene file with the options in place of its values.
+pub fn with_options(mut file: SceneFile, arguments: &SceneArguments) -> SceneFile {
     if let Some(engine) = arguments.engine {
         file.engine = engine;
     } else if arguments.dt.is_some() && !file.names_engine() {
@@ -38,7 +43,7 @@ pub fn scene_file(arguments: &SceneArguments) -> Result<SceneFile, Failure> {
     }
     file.duration = arguments.duration.or(file.duration);
     file.dt = arguments.dt.or(file.dt);
-    Ok(file)
+    file
 }
 
 /// Whether an argument means a file rather than a built-in scene.

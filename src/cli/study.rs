@@ -4,7 +4,7 @@ mod error;
 mod precision;
 mod scaling;
 mod stability;
-mod watch;
+pub mod watch;
 
 use std::path::{Path, PathBuf};
 

@@ -41,7 +41,10 @@ mod undo;
 mod window;
 
 use super::account::Effort;
+use super::change::Base;
+use super::handles::Handles;
 use super::interface::{EventEngine, Stretch};
+use super::later::{Elapsed, Later};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
@@ -73,6 +76,7 @@ pub(super) use snapshot::EventState;
 #[derive(Debug)]
 pub struct EventDriven<T: Real> {
     engine: Box<dyn EventEngine<T>>,
+    base: Base<T>,
 }
 
 impl<T: Compiled> EventDriven<T> {
@@ -108,7 +112,27 @@ impl<T: Compiled> EventDriven<T> {
     /// # Errors
     /// None yet for a checked scene.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
-        Ok(Self { engine: T::event_driven(scene, execution)? })
+        let base = Base::new(&scene, execution);
+        Ok(Self { engine: T::event_driven(scene, execution)?, base })
+    }
+
+    /// A scene that goes on from what has elapsed.
+    pub(super) fn later(
+        scene: Scene<T>,
+        execution: Execution,
+        elapsed: Elapsed,
+        handles: Handles,
+    ) -> Result<Self, EngineError> {
+        let base = Base::later(&scene, execution, handles);
+        let engine = Later::new(scene, elapsed, |scene| T::event_driven(scene, execution))?;
+        Ok(Self { engine: Box::new(engine), base })
+    }
+
+    /// Goes on as the scene now is.
+    pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
+        let elapsed = Elapsed::of(&*self.engine, 0);
+        *self = Self::later(scene, self.base.execution, elapsed, handles)?;
+        Ok(())
     }
 }
 
@@ -411,9 +435,17 @@ impl<T: Real> EventDriven<T> {
         self.engine.effort()
     }
 
+    pub(super) fn base(&self) -> &Base<T> {
+        &self.base
+    }
+
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
-        self.engine.save()
+        let mut saved = self.engine.save();
+        if let Some(later) = &mut saved.later {
+            later.handles.clone_from(&self.base.handles);
+        }
+        saved
     }
 
     #[cfg(feature = "files")]
@@ -433,6 +465,6 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.engine.bytes()
+        self.engine.bytes() + self.base.bytes()
     }
 }

@@ -96,7 +96,7 @@ impl<T: Real> Frame<T> {
             column.iter_mut().for_each(|x| *x = *x * length + origin);
         }
         self.scale_bodies(&mut bodies, 1);
-        bodies
+        bodies.left_by_world()
     }
 
     /// Scales all but positions by the units or, with -1, by their inverses.

@@ -8,8 +8,10 @@ use serde::{Deserialize, Serialize};
 
 use super::account::Account;
 use super::event_driven::EventState;
+use super::handles::Handles;
+use super::later::Elapsed;
 use super::stepped::StepState;
-use crate::bodies::Columns3;
+use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -37,6 +39,92 @@ use crate::vec3::Vec3;
 pub struct Snapshot {
     pub(super) account: Account,
     pub(super) state: State,
+    /// Of a world that was changed: what had elapsed before, the time that was asked for,
+    /// and what it went on from.
+    pub(super) later: Option<Box<SavedLater>>,
+}
+
+/// What a snapshot of a changed world has besides.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SavedLater {
+    pub elapsed: Elapsed,
+    pub asked: Option<f64>,
+    pub start: SavedStart,
+    pub handles: Handles,
+}
+
+impl Snapshot {
+    /// The state of an engine that was not changed on the way.
+    pub(super) fn of(account: &Account, state: State) -> Self {
+        Self { account: account.clone(), state, later: None }
+    }
+}
+
+/// What an engine started with, besides what its scene says.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SavedStart {
+    gravity: Reals,
+    position: Reals3,
+    velocity: Reals3,
+    spin: Reals3,
+    orientation: Option<[Reals; 9]>,
+    /// One number for all bodies, or one for each.
+    radius: Reals,
+    mass: Reals,
+    inertia: Reals,
+}
+
+impl SavedStart {
+    pub fn of<T: Real>(gravity: Vec3<T>, bodies: &Bodies<T>) -> Self {
+        let figure = |figure: &PerBody<T>| match figure {
+            PerBody::Same(value) => Reals::of([*value]),
+            PerBody::Each(column) => Reals::of(column.iter().copied()),
+        };
+        let column = |column: &Column<T>| Reals::of(column.iter().copied());
+        Self {
+            gravity: Reals::of(gravity.to_array()),
+            position: reals3(&bodies.position),
+            velocity: reals3(&bodies.velocity),
+            spin: reals3(&bodies.spin),
+            orientation: bodies.orientation.as_ref().map(|rows| rows.each_ref().map(column)),
+            radius: figure(&bodies.radius),
+            mass: figure(&bodies.mass),
+            inertia: figure(&bodies.inertia),
+        }
+    }
+
+    pub fn read<T: Real>(&self) -> Result<(Vec3<T>, Bodies<T>), Misfit> {
+        let len = self.position[0].len();
+        let figure = |reals: &Reals, what| -> Result<PerBody<T>, Misfit> {
+            if reals.len() == 1 {
+                return Ok(PerBody::Same(reals.read(1, what)?[0]));
+            }
+            let values: Vec<T> = reals.read(len, what)?;
+            Ok(PerBody::Each(Column::from_values(values.into_iter(), T::ONE)))
+        };
+        let orientation = match &self.orientation {
+            None => None,
+            Some(rows) => {
+                let mut columns = Box::new(core::array::from_fn(|_| Column::new(0, T::ZERO)));
+                for (column, row) in columns.iter_mut().zip(rows) {
+                    *column = row.column(len, "orientations")?;
+                }
+                Some(columns)
+            }
+        };
+        let gravity: Vec<T> = self.gravity.read(3, "gravity")?;
+        let bodies = Bodies {
+            origin: Origin::Described,
+            position: columns3(&self.position, len, "positions")?,
+            velocity: columns3(&self.velocity, len, "velocities")?,
+            spin: columns3(&self.spin, len, "spins")?,
+            orientation,
+            radius: figure(&self.radius, "radii")?,
+            mass: figure(&self.mass, "masses")?,
+            inertia: figure(&self.inertia, "moments of inertia")?,
+        };
+        Ok((Vec3::new(gravity[0], gravity[1], gravity[2]), bodies))
+    }
 }
 
 /// The state of either engine.
@@ -73,6 +161,15 @@ impl Reals {
                     })
                     .collect(),
             ),
+        }
+    }
+
+    /// How many they are.
+    fn len(&self) -> usize {
+        match self {
+            Self::Single(values) => values.len(),
+            Self::Double(values) => values.len(),
+            Self::Pairs(values) => values.len(),
         }
     }
 

@@ -29,7 +29,10 @@ mod snapshot;
 mod state;
 mod struck;
 
+use super::change::Base;
+use super::handles::Handles;
 use super::interface::StepEngine;
+use super::later::{Elapsed, Later};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
@@ -62,6 +65,7 @@ pub(super) use snapshot::StepState;
 #[derive(Debug)]
 pub struct Stepped<T: Real> {
     engine: Box<dyn StepEngine<T>>,
+    base: Base<T>,
 }
 
 impl<T: Compiled> Stepped<T> {
@@ -97,7 +101,27 @@ impl<T: Compiled> Stepped<T> {
     /// # Errors
     /// If the scene has no `dt`, or the system no threads to give.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
-        Ok(Self { engine: T::stepped(scene, execution)? })
+        let base = Base::new(&scene, execution);
+        Ok(Self { engine: T::stepped(scene, execution)?, base })
+    }
+
+    /// A scene that goes on from what has elapsed.
+    pub(super) fn later(
+        scene: Scene<T>,
+        execution: Execution,
+        elapsed: Elapsed,
+        handles: Handles,
+    ) -> Result<Self, EngineError> {
+        let base = Base::later(&scene, execution, handles);
+        let engine = Later::new(scene, elapsed, |scene| T::stepped(scene, execution))?;
+        Ok(Self { engine: Box::new(engine), base })
+    }
+
+    /// Goes on as the scene now is.
+    pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
+        let elapsed = Elapsed::of(&*self.engine, self.engine.steps());
+        *self = Self::later(scene, self.base.execution, elapsed, handles)?;
+        Ok(())
     }
 }
 
@@ -296,7 +320,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.engine.time()
+        self.steps() as f64 * self.exact_dt()
     }
 
     /// The bodies now, in the scene's order, orientations brought up to date.
@@ -373,9 +397,17 @@ impl<T: Real> Stepped<T> {
         self.engine.totals().virial
     }
 
+    pub(super) fn base(&self) -> &Base<T> {
+        &self.base
+    }
+
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
-        self.engine.save()
+        let mut saved = self.engine.save();
+        if let Some(later) = &mut saved.later {
+            later.handles.clone_from(&self.base.handles);
+        }
+        saved
     }
 
     #[cfg(feature = "files")]
@@ -395,6 +427,6 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.engine.bytes()
+        self.engine.bytes() + self.base.bytes()
     }
 }

@@ -1,11 +1,12 @@
 //! World: a scene in motion, by whichever engine moves it.
 
 #[cfg(feature = "files")]
-use super::snapshot::{Misfit, Snapshot};
+use super::snapshot::{Misfit, SavedLater, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
+use crate::space::SphereTree;
 use crate::vec3::Vec3;
 
 /// A scene in motion, by the engine that it names.
@@ -69,12 +70,24 @@ impl<T: Compiled> World<T> {
         execution: Execution,
         snapshot: &Snapshot,
     ) -> Result<Self, EngineError> {
-        let mut world = Self::new(scene, execution)?;
+        let misfit = |Misfit(what)| EngineError::Snapshot(what);
+        let mut world = match &snapshot.later {
+            None => Self::new(scene, execution)?,
+            Some(later) => {
+                let SavedLater { elapsed, start, handles, .. } = &**later;
+                let (gravity, bodies) = start.read().map_err(misfit)?;
+                if handles.len() != bodies.len() {
+                    return Err(misfit(Misfit("bodies")));
+                }
+                let scene = Scene { gravity, bodies, ..scene };
+                Self::later(scene, execution, *elapsed, handles.clone())?
+            }
+        };
         let restored = match &mut world {
             Self::Stepped(world) => world.restore(snapshot),
             Self::EventDriven(world) => world.restore(snapshot),
         };
-        restored.map_err(|Misfit(what)| EngineError::Snapshot(what))?;
+        restored.map_err(misfit)?;
         Ok(world)
     }
 }
@@ -133,6 +146,29 @@ impl<T: Real> World<T> {
         match self {
             Self::Stepped(world) => world.bodies(),
             Self::EventDriven(world) => world.bodies(),
+        }
+    }
+
+    /// The bodies now, to be asked by place: which are in a sphere or a box, nearest to a
+    /// point, in the way of a ray. It is made of them once and does not follow them.
+    ///
+    /// ```
+    /// # use carom::{Execution, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// # let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// # let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// # let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(0.25)?;
+    /// assert_eq!(world.sphere_tree().in_sphere([0.0; 3], 1.0), [0]);
+    /// assert_eq!(world.sphere_tree().nearest([3.0, 0.0, 0.0], 1), [1]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn sphere_tree(&self) -> SphereTree<T> {
+        match self {
+            Self::Stepped(world) => world.sphere_tree(),
+            Self::EventDriven(world) => world.sphere_tree(),
         }
     }
 

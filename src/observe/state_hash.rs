@@ -73,7 +73,7 @@ pub fn state_hash<T: Real>(bodies: &Bodies<T>) -> StateHash {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bodies::PerBody;
+    use crate::bodies::{Origin, PerBody};
     use crate::column::Column;
 
     fn row(len: usize) -> Bodies<f32> {
@@ -83,6 +83,7 @@ mod tests {
             })
         };
         Bodies {
+            origin: Origin::Described,
             position: columns(1.0),
             velocity: columns(0.25),
             spin: columns(0.125),

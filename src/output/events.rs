@@ -1,11 +1,19 @@
 //! Events file: one row for each collision.
 
+#[cfg(feature = "study")]
+mod arrays;
+mod filter;
+
 use std::io;
 
 use crate::engine::{Event, Partner};
 use crate::output::{CsvLine, as_io, csv_writer};
 use crate::real::Real;
 use crate::vec3::Vec3;
+
+#[cfg(feature = "study")]
+pub use arrays::EventArrays;
+pub use filter::EventFilter;
 
 /// The columns of an events file.
 ///
@@ -110,10 +118,7 @@ impl<W: io::Write> EventWriter<W> {
     }
 
     fn write<T: Real>(&mut self, event: &Event<T>) -> io::Result<()> {
-        if !is_finite(event) {
-            let at = format!("a collision of body {} is no longer finite", event.a);
-            return Err(io::Error::new(io::ErrorKind::InvalidData, at));
-        }
+        check_finite(event)?;
         let line = &mut self.line;
         line.numbers([event.time]);
         line.shown(event.a);
@@ -160,6 +165,15 @@ impl<W: io::Write> EventWriter<W> {
         self.check()?;
         self.writer.into_inner().map_err(csv::IntoInnerError::into_error)
     }
+}
+
+/// Refuses a collision that has a figure that is no finite number.
+fn check_finite<T: Real>(event: &Event<T>) -> io::Result<()> {
+    if is_finite(event) {
+        return Ok(());
+    }
+    let at = format!("a collision of body {} is no longer finite", event.a);
+    Err(io::Error::new(io::ErrorKind::InvalidData, at))
 }
 
 /// Whether a collision consists of numbers.

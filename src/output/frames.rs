@@ -7,7 +7,6 @@ mod figures;
 mod paraview;
 mod rows;
 mod xyz;
-mod zip;
 
 use std::io::{self, BufWriter, Write};
 use std::path::Path;

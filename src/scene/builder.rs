@@ -355,6 +355,11 @@ impl<T: Real> SceneBuilder<T> {
     /// Adds spheres whose whole state is there already. If they are all there
     /// is, nothing is copied.
     ///
+    /// What a world's own `bodies()` are is not held against overlaps: a step ends with
+    /// bodies in each other, and an engine goes on from whatever it leaves. If centres or
+    /// radii have been written to since, they may be in others by a tenth of their radii
+    /// and the way of two steps.
+    ///
     /// ```
     /// use carom::{Bodies, Scene};
     ///

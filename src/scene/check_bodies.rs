@@ -7,8 +7,8 @@ use super::check::{Found, figures};
 use super::description::Description;
 use super::error::{Problem, SceneError};
 use super::obstacles::{Misplaced, Obstacles};
-use super::settings::Encounters;
-use crate::bodies::{Bodies, Columns3, PerBody};
+use super::settings::{Encounters, EngineKind};
+use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::space::PeriodicBox;
@@ -16,9 +16,77 @@ use crate::space::neighbours::{Neighbours, largest, tolerance};
 use crate::surroundings::{Feature, Shape, features_of};
 use crate::vec3::Vec3;
 
-/// By which part of their radii spheres may overlap what they touch where they
-/// come from the state of a run: a step ends with bodies in each other.
+/// By which part of their radii spheres of a state may overlap what they touch, and by
+/// the way of how many steps: a step ends with bodies in each other.
 const STATE_SLACK: f64 = 0.1;
+const STATE_STEPS: f64 = 2.0;
+
+/// The most of its radius that a sphere of a state may be inside of another.
+const DEEPEST: f64 = 0.9;
+
+/// What has put the bodies where they are.
+#[derive(Clone, Copy)]
+pub(super) struct Sources<'a> {
+    /// The bodies of each entry, and what has put these there.
+    pub(super) ranges: &'a [Range<usize>],
+    pub(super) origins: &'a [Origin],
+    /// Of bodies that a world has left, whether each was placed since.
+    pub(super) placed: Option<&'a [bool]>,
+}
+
+/// How far bodies may overlap what they touch, by where they come from.
+struct Allowance<'a> {
+    sources: Sources<'a>,
+    /// What has put all of them there, if it is one thing.
+    common: Option<Origin>,
+    /// How far a body of a state comes in some steps, length.
+    way: f64,
+}
+
+impl<'a> Allowance<'a> {
+    fn new(sources: Sources<'a>, way: f64) -> Self {
+        let kind = core::mem::discriminant;
+        let (first, mut all) = (sources.origins.first(), sources.origins.iter());
+        let common = first.filter(|first| all.all(|origin| kind(origin) == kind(first))).copied();
+        let common = common.filter(|_| sources.placed.is_none());
+        Self { sources, common, way }
+    }
+
+    fn origin(&self, body: usize) -> Origin {
+        if let Some(origin) = self.common {
+            return origin;
+        }
+        let Sources { ranges, origins, placed } = self.sources;
+        if placed.is_some_and(|placed| placed[body]) {
+            return Origin::Described;
+        }
+        origins[ranges.partition_point(|range| range.end <= body)]
+    }
+
+    /// Whether it is where a world has left it. What an engine may leave, it goes on from.
+    fn is_left(&self, body: usize) -> bool {
+        matches!(self.origin(body), Origin::World(_))
+    }
+
+    /// How far a body may be inside of others, length.
+    fn of(&self, body: usize, radius: f64) -> f64 {
+        match self.origin(body) {
+            Origin::Described | Origin::World(_) => 0.0,
+            Origin::State => (STATE_SLACK * radius + self.way).min(DEEPEST * radius),
+        }
+    }
+}
+
+/// How far the fastest body of a stepped scene comes in the steps that a state may be
+/// behind by, length.
+fn way<T: Real>(asked: &Description<T>, bodies: &Bodies<T>) -> f64 {
+    let (EngineKind::Stepped, Some(dt)) = (asked.engine, asked.stepped.dt) else { return 0.0 };
+    let squares =
+        (0..bodies.len()).map(|body| bodies.velocity_of(body).cast::<f64>().length_squared());
+    let speed = squares.fold(0.0, f64::max).sqrt();
+    let fallen = asked.gravity.cast::<f64>().length() * dt;
+    STATE_STEPS * dt * (speed + fallen)
+}
 
 /// Checks all bodies. Centres on the upper face of the periodic box move to
 /// the lower one, which is the same place.
@@ -26,16 +94,16 @@ pub(super) fn bodies<T: Real>(
     asked: &Description<T>,
     periodic: Option<PeriodicBox<T>>,
     mut bodies: Bodies<T>,
-    ranges: &[Range<usize>],
+    sources: Sources<'_>,
 ) -> Result<Bodies<T>, SceneError> {
     let of_entry = |(body, key, problem): Found| {
-        let entry = ranges.partition_point(|range| range.end <= body);
+        let entry = sources.ranges.partition_point(|range| range.end <= body);
         asked.origin.error_in(&format!("spheres[{entry}]"), (key, problem))
     };
-    let slack = if asked.has_state { STATE_SLACK } else { 0.0 };
+    let allowance = Allowance::new(sources, way(asked, &bodies));
     figures(&bodies, asked.surface).map_err(of_entry)?;
     motion(&bodies).map_err(of_entry)?;
-    orientation(&bodies).map_err(of_entry)?;
+    orientation(&bodies, &allowance).map_err(of_entry)?;
     if let Some(space) = &periodic {
         if asked.encounters == Encounters::All {
             sides(space, &bodies).map_err(|problem| asked.origin.error("periodic", problem))?;
@@ -44,7 +112,7 @@ pub(super) fn bodies<T: Real>(
     }
     if asked.encounters != Encounters::None {
         let shapes: Vec<_> = asked.surroundings.iter().map(|given| given.rounded).collect();
-        let misplaced = surroundings(&shapes, &bodies, slack);
+        let misplaced = surroundings(&shapes, &bodies, &allowance);
         let first = misplaced.as_ref().map_or(shapes.len(), |misplaced| misplaced.0 + 1);
         if let Some(space) = &periodic {
             let radius = bodies.radius.greatest();
@@ -57,12 +125,12 @@ pub(super) fn bodies<T: Real>(
         if let Some((_, found)) = misplaced {
             return Err(of_entry(found));
         }
-        room(&shapes, asked.gravity, &bodies).map_err(|(index, problem)| {
+        room(&shapes, asked.gravity, &bodies, &allowance).map_err(|(index, problem)| {
             asked.origin.error(format!("surroundings[{index}]"), problem)
         })?;
     }
     if asked.encounters == Encounters::All {
-        overlaps(periodic, &bodies, slack).map_err(of_entry)?;
+        overlaps(periodic, &bodies, &allowance).map_err(of_entry)?;
     }
     Ok(bodies)
 }
@@ -84,11 +152,11 @@ fn motion<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
 }
 
 /// Orientations of bodies that came ready.
-fn orientation<T: Real>(bodies: &Bodies<T>) -> Result<(), Found> {
+fn orientation<T: Real>(bodies: &Bodies<T>, allowance: &Allowance<'_>) -> Result<(), Found> {
     if bodies.orientation.is_none() {
         return Ok(());
     }
-    for body in 0..bodies.len() {
+    for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
         let m = bodies.orientation_of(body);
         if !is_rotation(m) {
             let found = format!("no rotation for body {body}");
@@ -174,16 +242,18 @@ fn within<T: Real>(shape: &Shape<T>, space: &PeriodicBox<T>, radius: T) -> Resul
 fn surroundings<T: Real>(
     shapes: &[Shape<T>],
     bodies: &Bodies<T>,
-    slack: f64,
+    allowance: &Allowance<'_>,
 ) -> Option<(usize, Found)> {
     let epsilon = T::EPSILON.to_f64();
     let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
-    let tolerated = |feature: &Feature<T>, center: Vec3<T>, radius: T| {
+    let tolerated = |feature: &Feature<T>, body: usize, center: Vec3<T>, radius: T| {
         let coordinate = largest(center.cast().to_array()) + feature.farthest();
-        tolerance(epsilon, coordinate, radius.to_f64()) + slack * radius.to_f64()
+        let radius = radius.to_f64();
+        tolerance(epsilon, coordinate, radius) + allowance.of(body, radius)
     };
+    let placed = (0..bodies.len()).filter(|body| !allowance.is_left(*body));
     let Misplaced { shape, body, depth } =
-        Obstacles::new(shapes).first_overlap(bodies.len(), sphere, tolerated)?;
+        Obstacles::new(shapes).first_overlap(placed, sphere, tolerated)?;
     let (beyond, wanted) = match shapes[shape].interior() {
         Some(_) => (
             format!("outside of its container, surroundings[{shape}]"),
@@ -204,6 +274,7 @@ fn room<T: Real>(
     shapes: &[Shape<T>],
     gravity: Vec3<T>,
     bodies: &Bodies<T>,
+    allowance: &Allowance<'_>,
 ) -> Result<(), (usize, Problem)> {
     /// More planes make no slab that a person has in mind.
     const MOST: usize = 1000;
@@ -230,7 +301,7 @@ fn room<T: Real>(
             if !facing || width - 2.0 * greatest > slack {
                 continue;
             }
-            for body in 0..bodies.len() {
+            for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
                 let radius = bodies.radius.of(body).to_f64();
                 let moves = |vector: Vec3<T>| {
                     let vector = vector.cast::<f64>();
@@ -266,42 +337,49 @@ fn direction<T: Real>(vector: Vec3<T>) -> String {
     }
 }
 
-/// No two bodies overlap. The largest go first, and each then meets only
-/// bodies of its own size or larger: the time is linear in their number.
+/// No two bodies overlap, but those that a world has left so, which are held against the
+/// others only. The largest go first, and each then meets only bodies of its own size or
+/// larger: the time is linear in their number.
 fn overlaps<T: Real>(
     periodic: Option<PeriodicBox<T>>,
     bodies: &Bodies<T>,
-    slack: f64,
+    allowance: &Allowance<'_>,
 ) -> Result<(), Found> {
+    let all = 0..bodies.len() as u32;
+    let is_left = |body: &u32| allowance.is_left(*body as usize);
+    let placed: Vec<u32> = all.clone().filter(|body| !is_left(body)).collect();
+    let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
+    let whole = |body: u32| bodies.radius.of(body as usize).to_f64();
+    // Spheres that may overlap are as smaller ones that may not.
+    let radius = |body: u32| whole(body) - allowance.of(body as usize, whole(body));
+    let greatest = placed.iter().map(|body| radius(*body)).fold(0.0, f64::max);
+    if placed.is_empty() {
+        return Ok(());
+    }
     let space = periodic.map(|space| {
         let corner = |point: Vec3<T>| point.to_array().map(T::to_f64);
         PeriodicBox::new(corner(space.lower), corner(space.upper))
     });
-    // Spheres that may overlap are as smaller ones that may not.
-    let hard = 1.0 - slack;
-    let greatest = hard * bodies.radius.greatest().to_f64();
-    let mut table = Neighbours::new(bodies.len(), greatest, T::EPSILON.to_f64(), space);
+    let mut table = Neighbours::new(placed.len(), greatest, T::EPSILON.to_f64(), space);
+    let overlap = |table: &Neighbours, body: u32| {
+        let Some(other) = table.overlapping(center(body), radius(body)) else { return Ok(()) };
+        let (a, b) = (body.min(other.id), body.max(other.id));
+        let soft = [a, b].map(|body| whole(body) - radius(body));
+        let (depth, found) = (other.depth + soft[0] + soft[1], b as usize);
+        Err((found, "", Problem::Overlap { a: a as usize, b: found, depth }))
+    };
     let finest = match &bodies.radius {
-        PerBody::Same(_) => 0,
-        PerBody::Each(column) => {
-            column.iter().map(|radius| table.level(hard * radius.to_f64())).max().unwrap_or(0)
-        }
+        PerBody::Same(_) if allowance.common.is_some() => 0,
+        _ => placed.iter().map(|body| table.level(radius(*body))).max().unwrap_or(0),
     };
     for level in 0..=finest {
-        let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
-        let radius = |body: u32| hard * bodies.radius.of(body as usize).to_f64();
-        let mut order: Vec<u32> = (0..bodies.len() as u32)
-            .filter(|body| finest == 0 || table.level(radius(*body)) == level)
-            .collect();
+        let on_level = |body: &u32| finest == 0 || table.level(radius(*body)) == level;
+        let mut order: Vec<u32> = placed.iter().copied().filter(on_level).collect();
         order.sort_by_cached_key(|body| table.order(level, center(*body)));
         for body in order {
-            if let Some(other) = table.overlapping(center(body), radius(body)) {
-                let (a, b) = (body.min(other.id) as usize, body.max(other.id) as usize);
-                let soft = (radius(a as u32) + radius(b as u32)) / hard * slack;
-                return Err((b, "", Problem::Overlap { a, b, depth: other.depth + soft }));
-            }
+            overlap(&table, body)?;
             table.insert(body, center(body), radius(body));
         }
     }
-    Ok(())
+    all.filter(is_left).try_for_each(|body| overlap(&table, body))
 }

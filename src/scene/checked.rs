@@ -1,7 +1,9 @@
 //! Checked: a scene without a mistake, and the way from its description.
 
-use super::description::Description;
+use super::check_bodies::Sources;
+use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
+use super::origin::Origin;
 use super::settings::{Encounters, EngineKind, SteppedSettings};
 use super::{check, check_bodies, generate};
 use crate::bodies::Bodies;
@@ -58,15 +60,95 @@ pub struct Scene<T: Real> {
 }
 
 impl<T: Real> Scene<T> {
+    /// The same scene with other bodies, which are checked as
+    /// [`SceneBuilder::bodies`](super::SceneBuilder::bodies) has it: what a world has left is
+    /// taken, however deep a step has left bodies in each other.
+    ///
+    /// ```
+    /// use carom::{Scene, Sphere, Stepped};
+    ///
+    /// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
+    /// let scene = Scene::<f64>::builder().dt(0.01).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// let mut world = Stepped::new(scene.clone())?;
+    /// world.advance(0.25)?;
+    /// let mut bodies = world.bodies();
+    /// let later = scene.with_bodies(bodies.clone())?;
+    /// assert_eq!(later.bodies.position_of(0).x, 0.25);
+    /// // A state that is written to is checked.
+    /// bodies.position[0][1] = 0.75;
+    /// let error = scene.with_bodies(bodies).unwrap_err();
+    /// assert!(error.to_string().contains("they overlap"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If they cannot be in the scene: see [`SceneBuilder::build`](super::SceneBuilder::build).
+    pub fn with_bodies(&self, bodies: Bodies<T>) -> Result<Self, SceneError> {
+        Self::new(self.description(bodies))
+    }
+
+    fn description(&self, bodies: Bodies<T>) -> Description<T> {
+        Description {
+            engine: self.engine,
+            duration: self.duration,
+            gravity: self.gravity,
+            surface: self.surface,
+            encounters: self.encounters,
+            periodic: self
+                .periodic
+                .map_or(Periodicity::Open, |space| Periodicity::Box(GivenBox::rounded(space))),
+            surroundings: self.surroundings.iter().copied().map(GivenShape::rounded).collect(),
+            stepped: self.stepped,
+            entries: vec![Entry::Ready(Box::new(bodies))],
+            ..Description::new(self.name.clone(), Origin::code(&self.name))
+        }
+    }
+
+    /// The same without bodies.
+    pub(crate) fn without_bodies(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            engine: self.engine,
+            duration: self.duration,
+            gravity: self.gravity,
+            surface: self.surface,
+            encounters: self.encounters,
+            periodic: self.periodic,
+            surroundings: self.surroundings.clone(),
+            stepped: self.stepped,
+            bodies: Bodies::none(),
+        }
+    }
+
+    /// [`with_bodies`](Scene::with_bodies) where a world has left them, but for those that
+    /// are `placed`, which are checked.
+    pub(crate) fn with_placed(
+        &self,
+        bodies: Bodies<T>,
+        placed: &[bool],
+    ) -> Result<Self, SceneError> {
+        Self::checked(self.description(bodies.left_by_world()), Some(placed))
+    }
+
     /// Checks a description, places the spheres, and checks what they make
     /// together.
-    pub(super) fn new(mut asked: Description<T>) -> Result<Self, SceneError> {
+    pub(super) fn new(asked: Description<T>) -> Result<Self, SceneError> {
+        Self::checked(asked, None)
+    }
+
+    fn checked(mut asked: Description<T>, placed: Option<&[bool]>) -> Result<Self, SceneError> {
         check::settings(&asked)?;
         let ranges = check::entries(&asked)?;
         let periodic = generate::periodic_box(&asked)?;
+        let origins: Vec<_> = asked.entries.iter().map(Entry::known_origin).collect();
         let bodies = generate::bodies(&mut asked, periodic.map(|given| given.exact), &ranges)?;
         let periodic = periodic.map(|given| given.rounded);
-        let bodies = check_bodies::bodies(&asked, periodic, bodies, &ranges)?;
+        let bodies = check_bodies::bodies(
+            &asked,
+            periodic,
+            bodies,
+            Sources { ranges: &ranges, origins: &origins, placed },
+        )?;
         Ok(Self {
             name: asked.name,
             engine: asked.engine,

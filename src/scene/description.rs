@@ -4,7 +4,7 @@
 use super::origin::Origin;
 use super::settings::{Encounters, EngineKind, SteppedSettings};
 use super::spheres::{Sphere, Spheres};
-use crate::bodies::Bodies;
+use crate::bodies::{self, Bodies};
 use crate::contact::Surface;
 use crate::real::Real;
 use crate::space::PeriodicBox;
@@ -66,6 +66,16 @@ pub(super) enum Entry<T: Real> {
     Ready(Box<Bodies<T>>),
 }
 
+impl<T: Real> Entry<T> {
+    /// What has put them where they are.
+    pub(super) fn known_origin(&self) -> bodies::Origin {
+        match self {
+            Self::One(_) | Self::Many(_) => bodies::Origin::Described,
+            Self::Ready(bodies) => bodies.known_origin(),
+        }
+    }
+}
+
 /// All that a scene is made from.
 #[derive(Clone, Debug)]
 pub(super) struct Description<T: Real> {
@@ -80,8 +90,6 @@ pub(super) struct Description<T: Real> {
     pub(super) stepped: SteppedSettings,
     pub(super) seed: u64,
     pub(super) entries: Vec<Entry<T>>,
-    /// Whether spheres come from the state of an earlier run.
-    pub(super) has_state: bool,
     pub(super) origin: Origin,
 }
 
@@ -101,7 +109,6 @@ impl<T: Real> Description<T> {
             stepped: SteppedSettings::default(),
             seed: 0,
             entries: Vec::new(),
-            has_state: false,
             origin,
         }
     }

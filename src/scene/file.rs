@@ -299,7 +299,6 @@ impl SceneFile {
                 None => spheres(&origin, index, raw)?,
                 Some(file) => self.state(&origin, index, raw, file)?,
             };
-            asked.has_state |= raw.file.is_some();
             asked.entries.push(entry);
         }
         Scene::new(asked)

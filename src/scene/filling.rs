@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::figures::{Figures, Values};
 use super::random::{Purpose, Random, Seed};
 use super::spheres::{Make, Spheres};
-use crate::bodies::{Bodies, Columns3, PerBody};
+use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
 use crate::mat3::Mat3;
 use crate::real::Real;
@@ -149,6 +149,7 @@ impl<T: Real> Filling<T> {
 
     pub(super) fn into_bodies(self) -> Bodies<T> {
         Bodies {
+            origin: Origin::Described,
             position: self.position,
             velocity: self.velocity,
             spin: self.spin,

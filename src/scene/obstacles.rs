@@ -39,13 +39,13 @@ impl<T: Real> Obstacles<T> {
             && !self.tree.any(around(center, radius), overlaps)
     }
 
-    /// Of all spheres that overlap something by more than a tolerance, the first
-    /// one at the first feature.
+    /// Of these spheres, in their order, that overlap something by more than a tolerance,
+    /// the first one at the first feature.
     pub(super) fn first_overlap(
         &self,
-        len: usize,
+        bodies: impl Iterator<Item = usize> + Clone,
         sphere: impl Fn(usize) -> (Vec3<T>, T),
-        tolerance: impl Fn(&Feature<T>, Vec3<T>, T) -> f64,
+        tolerance: impl Fn(&Feature<T>, usize, Vec3<T>, T) -> f64,
     ) -> Option<Misplaced> {
         let mut first: Option<(u32, usize, f64)> = None;
         let mut test = |feature: u32, body: usize| {
@@ -56,15 +56,15 @@ impl<T: Real> Obstacles<T> {
             let gap = self.gap(feature, center, radius);
             if gap < T::ZERO {
                 let gap = gap.to_f64();
-                if gap < -tolerance(&self.features[feature as usize], center, radius) {
+                if gap < -tolerance(&self.features[feature as usize], body, center, radius) {
                     first = Some((feature, body, gap));
                 }
             }
         };
         for &feature in self.tree.endless() {
-            (0..len).for_each(|body| test(feature, body));
+            bodies.clone().for_each(|body| test(feature, body));
         }
-        for body in 0..len {
+        for body in bodies {
             let (center, radius) = sphere(body);
             self.tree.for_each(around(center, radius), |feature| test(feature, body));
         }

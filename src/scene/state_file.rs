@@ -14,7 +14,7 @@ use super::filling::Filling;
 use super::random::Seed;
 use super::settings::MOST_BODIES;
 use super::spheres::Spheres;
-use crate::bodies::{Bodies, PerBody};
+use crate::bodies::{Bodies, Origin, PerBody};
 use crate::column::Column;
 use crate::mat3::Mat3;
 use crate::real::Real;
@@ -135,6 +135,7 @@ impl StateFile {
         };
         let orientation = rows.orientation.filter(|columns| is_turned(columns));
         Ok(Bodies {
+            origin: Origin::State,
             position: rows.position.map(column),
             velocity,
             spin,

@@ -57,6 +57,48 @@ pub struct Tree<T> {
     endless: Vec<u32>,
 }
 
+/// A ray from a point, up to a distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ray<T> {
+    origin: [T; 3],
+    /// `1/u` of each component of its unit direction; infinite where that is 0.
+    inverse: [T; 3],
+    longest: T,
+    margin: T,
+}
+
+impl<T: Real> Ray<T> {
+    /// From a point in a unit direction, up to a distance, length.
+    pub(crate) fn new(origin: Vec3<T>, unit: Vec3<T>, longest: T) -> Self {
+        let largest = origin.x.abs().greater(origin.y.abs()).greater(origin.z.abs());
+        Self {
+            origin: origin.to_array(),
+            inverse: unit.to_array().map(|component| T::ONE / component),
+            longest,
+            margin: largest * T::EPSILON * T::whole(ROUNDING),
+        }
+    }
+
+    /// Whether a box is in its way: it is between two faces of each axis at one time.
+    fn touches(&self, [lower, upper]: [[T; 3]; 2]) -> bool {
+        let (mut enters, mut leaves) = (T::ZERO, self.longest);
+        for axis in 0..3 {
+            let low = lower[axis] - self.margin - self.origin[axis];
+            let high = upper[axis] + self.margin - self.origin[axis];
+            if !self.inverse[axis].is_finite() {
+                if low > T::ZERO || high < T::ZERO {
+                    return false;
+                }
+                continue;
+            }
+            let [first, last] = [low * self.inverse[axis], high * self.inverse[axis]];
+            enters = enters.greater(first.lesser(last));
+            leaves = leaves.lesser(first.greater(last));
+        }
+        enters <= leaves
+    }
+}
+
 impl<T: Real> Tree<T> {
     /// A tree over boxes numbered from 0 on; `None` is a box without end.
     #[must_use]
@@ -131,23 +173,48 @@ impl<T: Real> Tree<T> {
             + size_of_val(self.endless.as_slice())
     }
 
+    /// The box around all boxes that have an end.
+    pub(crate) fn bounds(&self) -> Option<Bounds<T>> {
+        self.nodes.first().map(|root| [root.lower.into(), root.upper.into()])
+    }
+
+    /// Visits the numbers of the boxes in the way of a ray, in an order that means nothing;
+    /// those without end are left out.
+    pub(crate) fn for_each_along(&self, ray: Ray<T>, mut visit: impl FnMut(u32)) {
+        let _ = self.visit_where(
+            |bounds| ray.touches(bounds),
+            |_, number| -> ControlFlow<()> {
+                visit(number);
+                ControlFlow::Continue(())
+            },
+        );
+    }
+
     #[inline]
     fn visit<B>(
         &self,
         bounds: Bounds<T>,
+        visit: impl FnMut(Bounds<T>, u32) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let searched = grown(bounds).map(Vec3::to_array);
+        self.visit_where(|bounds| touch(bounds, searched), visit)
+    }
+
+    #[inline]
+    fn visit_where<B>(
+        &self,
+        is_near: impl Fn([[T; 3]; 2]) -> bool,
         mut visit: impl FnMut(Bounds<T>, u32) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let [lower, upper] = grown(bounds).map(Vec3::to_array);
         let mut at = 0;
         while let Some(node) = self.nodes.get(at) {
-            let is_near = touch([node.lower, node.upper], [lower, upper]);
-            if !is_near {
+            if !is_near([node.lower, node.upper]) {
                 at = node.next as usize;
                 continue;
             }
             let first = node.first as usize;
             for &(bounds, number) in &self.boxes[first..first + node.count as usize] {
-                if touch(bounds.map(Vec3::to_array), [lower, upper]) {
+                if is_near(bounds.map(Vec3::to_array)) {
                     visit(bounds, number)?;
                 }
             }

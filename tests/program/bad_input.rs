@@ -150,9 +150,14 @@ fn files_that_would_be_written_over_each_other() {
         let message = folder.says(&run).fails_with(2);
         assert!(message.contains("--events and --state"), "{message}");
     }
-    let message = folder.says("run scene.toml --events ./scene.toml").fails_with(2);
+    let message = folder.says("run scene.toml --snapshot ./scene.toml").fails_with(2);
     assert!(message.contains("scene file"), "{message}");
     assert_eq!(folder.read("scene.toml"), BOX);
+    // A scene file needs no ending.
+    std::fs::rename(folder.path("scene.toml"), folder.path("scene")).unwrap();
+    let message = folder.says("run ./scene --events scene").fails_with(2);
+    assert!(message.contains("scene file"), "{message}");
+    std::fs::rename(folder.path("scene"), folder.path("scene.toml")).unwrap();
     let message = folder.says("run scene.toml --json --events -").fails_with(2);
     assert!(message.contains("standard output"), "{message}");
     assert_eq!(folder.names(), ["scene.toml"]);

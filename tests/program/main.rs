@@ -14,6 +14,7 @@ mod states;
 mod streams;
 mod study;
 mod summary;
+mod sweep;
 
 use std::ffi::OsStr;
 use std::fs;

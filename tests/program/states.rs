@@ -195,3 +195,17 @@ fn spheres_may_overlap_as_a_step_leaves_them() {
     let message = says(0.5).fails_with(2);
     assert!(message.contains("overlap by 0.5;"), "{message}");
 }
+
+/// What long steps leave spheres in, a scene of such steps takes.
+#[test]
+fn a_run_in_long_steps_goes_on_from_its_state() {
+    let folder = Folder::with(BOX);
+    let options = "--set stepped.impact=end-of-step --dt 0.1 --engine stepped --json";
+    for duration in 1..=12 {
+        let run = format!("run scene.toml --duration {duration} --state state.csv {options}");
+        folder.says(&run).summary();
+        fs::write(folder.path("again.toml"), AGAIN).unwrap();
+        let summary = folder.says(&format!("run again.toml {options}")).summary();
+        assert_eq!(summary["bodies"], 20);
+    }
+}

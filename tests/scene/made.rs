@@ -2,6 +2,7 @@
 
 use carom::bodies::{Bodies, PerBody};
 use carom::contact::Surface;
+use carom::engine::Stepped;
 use carom::motion::Integrator;
 use carom::scene::{
     DEFAULT_SCENE, Encounters, Precision, Scene, SceneFile, Sphere, Spheres, builtin_scenes,
@@ -269,4 +270,44 @@ fn touching_is_no_overlap_in_either_precision() {
         let built = builder32.surroundings(Plane::new([0.0; 3], [0.0, 0.0, 1.0])).build();
         assert_eq!(built.is_ok(), shift < 1e5, "{shift}");
     }
+}
+
+/// A fast ball half in a wall after one long step, and another body far away.
+fn left_in_a_wall() -> (Scene<f64>, Bodies<f64>) {
+    let scene = Scene::<f64>::builder()
+        .surroundings(Cuboid::container([0.0; 3], [4.0; 3]))
+        .impact(Impact::EndOfStep)
+        .dt(0.5)
+        .sphere(Sphere::new([2.0, 1.0, 1.0]).radius(0.5).velocity([3.5, 0.0, 0.0]))
+        .sphere(Sphere::new([1.0, 3.0, 3.0]).radius(0.5))
+        .build()
+        .unwrap();
+    let mut world = Stepped::new(scene.clone()).unwrap();
+    world.step();
+    (scene, world.bodies())
+}
+
+#[test]
+fn what_a_world_leaves_is_a_scene_unless_it_is_written_to() {
+    let (scene, left) = left_in_a_wall();
+    assert_eq!(left.position_of(0).x, 3.75);
+    let again = scene.with_bodies(left.clone()).unwrap();
+    assert_eq!(again.bodies, left);
+    assert_eq!((again.stepped, again.engine), (scene.stepped, scene.engine));
+    // Beside others, which are checked against it and against what is fixed.
+    let beside = |x: f64| {
+        let ball = Sphere::new([x, 1.0, 1.0]).radius(0.5);
+        let walls = Cuboid::container([0.0; 3], [4.0; 3]);
+        let scene = Scene::<f64>::builder().surroundings(walls).bodies(left.clone());
+        scene.sphere(ball).build().map(|scene| scene.bodies.len())
+    };
+    assert_eq!(beside(2.75).unwrap(), 3);
+    assert!(beside(2.85).unwrap_err().to_string().contains("spheres[1] puts body 2 into body 0"));
+    assert!(beside(0.4).unwrap_err().to_string().contains("outside of its container"));
+    // A state that is written to may be as deep as a tenth and two steps: all of this one.
+    let mut moved = left.clone();
+    moved.velocity[0].fill(0.0);
+    moved.position[1][1] = 2.9;
+    let error = scene.with_bodies(moved).unwrap_err().to_string();
+    assert!(error.contains("outside of its container"), "{error}");
 }

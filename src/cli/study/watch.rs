@@ -1,8 +1,9 @@
 //! Watch: how far a study is, on the terminal.
 
 use core::time::Duration;
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
+use std::time::Instant;
 
 use carom::study::{Folder, Watch};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
@@ -12,9 +13,20 @@ use crate::cli::interrupt::last_words;
 /// Seconds from which the length of a study is announced.
 const LONG: f64 = 10.0;
 
+/// From one line about a long study to the next, where there is no terminal.
+const BETWEEN: Duration = Duration::from_secs(60);
+
 /// Shows on standard error how far a study is.
 pub struct Teller {
     bar: Mutex<Option<ProgressBar>>,
+    log: Mutex<Log>,
+}
+
+/// What the lines about a long study say.
+struct Log {
+    done: usize,
+    all: usize,
+    last: Instant,
 }
 
 impl Teller {
@@ -22,7 +34,8 @@ impl Teller {
     pub fn new(folder: &Folder) -> Self {
         let path = folder.path().display().to_string();
         last_words(format!("interrupted; the finished points are in {path}: start again to go on"));
-        Self { bar: Mutex::new(None) }
+        let log = Log { done: 0, all: 0, last: Instant::now() };
+        Self { bar: Mutex::new(None), log: Mutex::new(log) }
     }
 }
 
@@ -47,6 +60,9 @@ impl Watch for Teller {
             let plural = if ahead == 1 { "" } else { "s" };
             eprintln!("{done}{ahead} point{plural} ahead, {}", about(seconds));
         }
+        if let Ok(mut log) = self.log.lock() {
+            *log = Log { done: all - ahead, all, last: Instant::now() };
+        }
         if !io::stderr().is_terminal() {
             return;
         }
@@ -54,7 +70,9 @@ impl Watch for Teller {
         if let Ok(style) = ProgressStyle::with_template("{bar:20} {pos}/{len}  {wide_msg}") {
             bar.set_style(style);
         }
-        bar.set_message(about(seconds));
+        if seconds > 0.0 {
+            bar.set_message(about(seconds));
+        }
         bar.enable_steady_tick(Duration::from_millis(200));
         if let Ok(mut shown) = self.bar.lock()
             && let Some(before) = shown.replace(bar)
@@ -64,6 +82,16 @@ impl Watch for Teller {
     }
 
     fn is_done(&self, key: &str, seconds_left: f64) {
+        if let (false, Ok(mut log)) = (io::stderr().is_terminal(), self.log.lock()) {
+            log.done += 1;
+            if log.last.elapsed() >= BETWEEN {
+                log.last = Instant::now();
+                let (done, all) = (log.done, log.all);
+                // A message that cannot be written ends no study.
+                let _ =
+                    writeln!(io::stderr(), "{done} of {all} done, {} left", about(seconds_left));
+            }
+        }
         let Ok(shown) = self.bar.lock() else { return };
         let Some(bar) = &*shown else { return };
         bar.inc(1);

@@ -274,14 +274,14 @@ impl<T: Real> Engine<T> for Driver<T> {
                 }
             }
         }
-        bodies
+        bodies.left_by_world()
     }
 
     #[cfg(feature = "files")]
     fn save(&self) -> Snapshot {
         let is_too_fast = self.team.workers[0].is_too_fast;
         let state = snapshot::save(&self.store, &self.clock, is_too_fast);
-        Snapshot { account: self.account().clone(), state: State::EventDriven(state) }
+        Snapshot::of(self.account(), State::EventDriven(state))
     }
 
     #[cfg(feature = "files")]

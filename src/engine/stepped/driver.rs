@@ -131,7 +131,7 @@ impl<T: Real> Engine<T> for Driver<T> {
     #[cfg(feature = "files")]
     fn save(&self) -> Snapshot {
         let state = State::Stepped(snapshot::save(&self.region, &self.clock));
-        Snapshot { account: self.account.clone(), state }
+        Snapshot::of(&self.account, state)
     }
 
     #[cfg(feature = "files")]

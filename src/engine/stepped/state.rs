@@ -1,7 +1,7 @@
 //! State: the bodies as the stepped engine keeps them.
 
 use super::orientations::Orientations;
-use crate::bodies::{Bodies, Columns3, PerBody, at};
+use crate::bodies::{Bodies, Columns3, Origin, PerBody, at};
 use crate::column::Column;
 use crate::engine::plan::{Plan, Turning};
 use crate::mat3::Mat3;
@@ -196,6 +196,7 @@ impl<T: Real> State<T> {
             }
         };
         let mut bodies = Bodies {
+            origin: Origin::Described,
             position: self.by_index(&self.position),
             velocity: self.by_index(&self.velocity),
             spin: self.spin.clone(),
@@ -214,7 +215,7 @@ impl<T: Real> State<T> {
             }
             bodies.orientation = Some(rows);
         }
-        bodies
+        bodies.left_by_world()
     }
 
     /// The orientation of the body with an index, a time after the stored one.

@@ -1,17 +1,11 @@
-//! Arrays of NumPy: a `.npz` archive with one array for each column, frames × bodies,
-//! as `numpy.load` reads it.
-//!
-//! A column goes on from frame to frame, and so to a file of its own until the end.
+//! Arrays of NumPy, one for each column, frames × bodies.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Read, Seek, Write};
+use std::io::{self, Write};
 use std::path::Path;
-
-use crc32fast::Hasher;
 
 use super::Frame;
 use super::figures::{kinds, quaternion_of};
-use super::zip::Archive;
+use crate::output::npz::{Archive, NpzColumn};
 use crate::real::Real;
 
 /// The names of the columns of numbers.
@@ -25,55 +19,18 @@ const WHOLE: [&str; 4] = ["ix", "iy", "iz", "type"];
 #[derive(Debug)]
 pub struct NumPy<W> {
     output: W,
-    time: Column,
-    numbers: Vec<Column>,
-    whole: Vec<Column>,
+    time: NpzColumn,
+    numbers: Vec<NpzColumn>,
+    whole: Vec<NpzColumn>,
     frames: usize,
     bodies: usize,
     /// What NumPy calls the precision.
     precision: &'static str,
 }
 
-/// One array under way.
-#[derive(Debug)]
-struct Column {
-    name: &'static str,
-    file: BufWriter<File>,
-    crc: Hasher,
-    length: u64,
-}
-
-impl Column {
-    /// In a file without a name, in the folder where there is room for the archive.
-    fn new(name: &'static str, folder: &Path) -> io::Result<Self> {
-        let file = BufWriter::with_capacity(1 << 16, tempfile::tempfile_in(folder)?);
-        Ok(Self { name, file, crc: Hasher::new(), length: 0 })
-    }
-
-    fn add(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.crc.update(bytes);
-        self.length += bytes.len() as u64;
-        self.file.write_all(bytes)
-    }
-
-    /// Moves to an archive, as an array of this type and shape.
-    fn store<W: Write>(self, kind: &str, shape: &str, archive: &mut Archive<W>) -> io::Result<()> {
-        let head = head(kind, shape);
-        let mut crc = Hasher::new();
-        crc.update(&head);
-        crc.combine(&self.crc);
-        let mut file = self.file.into_inner().map_err(io::IntoInnerError::into_error)?;
-        file.rewind()?;
-        let size = head.len() as u64 + self.length;
-        let name = format!("{}.npy", self.name);
-        archive.add(&name, size, crc.finalize(), &mut head.as_slice().chain(file))
-    }
-}
-
 impl<W: Write> NumPy<W> {
     pub fn new(path: &Path, output: W) -> io::Result<Self> {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let column = |name| Column::new(name, folder.unwrap_or(Path::new(".")));
+        let column = |name| NpzColumn::beside(path, name);
         Ok(Self {
             output,
             time: column("time")?,
@@ -129,18 +86,4 @@ impl<W: Write> NumPy<W> {
         }
         archive.finish()
     }
-}
-
-/// What stands before the data of an array: format 1.0 of NumPy.
-fn head(kind: &str, shape: &str) -> Vec<u8> {
-    let mut text = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
-    // The data starts at a multiple of 64 bytes, after a line's end.
-    let before = 10;
-    let end = (before + text.len() + 1).next_multiple_of(64);
-    text.extend(core::iter::repeat_n(' ', end - before - text.len() - 1));
-    text.push('\n');
-    let mut head = b"\x93NUMPY\x01\x00".to_vec();
-    head.extend_from_slice(&(text.len() as u16).to_le_bytes());
-    head.extend_from_slice(text.as_bytes());
-    head
 }

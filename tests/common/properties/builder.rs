@@ -4,6 +4,7 @@ use carom::bodies::Bodies;
 use carom::contact::Surface;
 use carom::engine::{Compiled, EngineError, EventDriven, Execution, Stepped};
 use carom::motion::Integrator;
+use carom::observe::not_finite;
 use carom::real::Real;
 use carom::scene::{
     Arrangement, Encounters, EngineKind, Impact, OrientationUpdate, Scene, SceneBuilder, Sphere,
@@ -148,7 +149,13 @@ fn ready<T: Real>(builder: SceneBuilder<T>, draws: &mut Draws) -> SceneBuilder<T
 pub(super) fn moves_a_little<T: Compiled>(scene: Scene<T>) -> Outcome {
     let execution = Execution::new().threads(1);
     let bodies = scene.bodies.len();
-    let checked = |positions: &Bodies<T>| assert_eq!(positions.len(), bodies);
+    let start = scene.clone();
+    let checked = |left: &Bodies<T>| {
+        assert_eq!(left.len(), bodies);
+        if not_finite(left).is_none() {
+            start.with_bodies(left.clone()).unwrap_or_else(|error| panic!("{error}"));
+        }
+    };
     checked(&scene.bodies);
     for columns in [&scene.bodies.position, &scene.bodies.velocity, &scene.bodies.spin] {
         assert!(columns.iter().flat_map(|column| column.iter()).all(|x| x.is_finite()));

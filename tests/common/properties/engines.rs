@@ -69,6 +69,7 @@ fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
     if is_stopped {
         return Outcome::Stopped;
     }
+    goes_on_as_a_new_scene(&scene, &found, duration / 8.0);
     // In other lanes, with a stop on the way, and in windows of time, it is the same.
     // Threads that come and go take longer than all else.
     let threads = if part < 0.1 { 3 } else { 1 };
@@ -78,6 +79,20 @@ fn events<T: Compiled>(draws: &mut Draws) -> Outcome {
         check_same(&found, &same);
     }
     Outcome::Ran
+}
+
+/// What a world leaves is a scene, which both engines take.
+fn goes_on_as_a_new_scene<T: Compiled>(scene: &Scene<T>, run: &Run<T>, time: f64) {
+    let left = scene.with_bodies(run.bodies.clone()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(state_hash(&left.bodies), state_hash(&run.bodies));
+    if left.stepped.dt.is_some() {
+        let later = march(&left, Execution::new().threads(1), &[2]);
+        scene.with_bodies(later.bodies).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let (later, end) = story(&left, Execution::new().threads(1), &[time]);
+    // What a step leaves in others may rattle between them.
+    assert!(matches!(end, Ok(()) | Err(EngineError::Stalled { .. })), "{end:?}");
+    scene.with_bodies(later.bodies).unwrap_or_else(|error| panic!("{error}"));
 }
 
 /// All events up to the last of some times, or up to the time of the last of so many.
@@ -128,6 +143,7 @@ fn steps<T: Compiled>(draws: &mut Draws) -> Outcome {
     show(&scene);
     let found = march(&scene, Execution::new().threads(1), &[steps]);
     check(&scene, &found);
+    goes_on_as_a_new_scene(&scene, &found, found.time / 8.0);
     let execution = Execution::new().lanes(lanes).threads(threads);
     check_same(&found, &march(&scene, execution, &[steps / 2, steps - steps / 2]));
     let is_exact = impact == Impact::SubStep && integrator == verlet && !described.may_rest;

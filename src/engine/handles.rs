@@ -1,0 +1,69 @@
+//! Handles: names of bodies that stay when others are added and removed.
+
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
+/// The name of a body of a world, which no other body of it ever has.
+///
+/// Those that a world starts with have their indices; see
+/// [`World::handle_of`](super::World::handle_of).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+pub struct BodyHandle(u64);
+
+/// The handles of all bodies, by index. What is added comes last and has the next one, so
+/// that they rise.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+pub(super) struct Handles {
+    /// `None` as long as nothing was removed: they are the indices.
+    listed: Option<Vec<BodyHandle>>,
+    /// Those from here on are new.
+    next: u64,
+}
+
+impl Handles {
+    /// Of a world at its start.
+    pub fn new(bodies: usize) -> Self {
+        Self { listed: None, next: bodies as u64 }
+    }
+
+    /// How many there are.
+    #[cfg(feature = "files")]
+    pub fn len(&self) -> usize {
+        self.listed.as_ref().map_or(self.next as usize, Vec::len)
+    }
+
+    pub fn of(&self, index: usize) -> Option<BodyHandle> {
+        match &self.listed {
+            Some(listed) => listed.get(index).copied(),
+            None => Some(BodyHandle(index as u64)).filter(|handle| handle.0 < self.next),
+        }
+    }
+
+    pub fn index_of(&self, handle: BodyHandle) -> Option<usize> {
+        match &self.listed {
+            Some(listed) => listed.binary_search(&handle).ok(),
+            None => Some(handle.0 as usize).filter(|_| handle.0 < self.next),
+        }
+    }
+
+    /// Names some more bodies.
+    pub fn add(&mut self, bodies: usize) {
+        let end = self.next + bodies as u64;
+        if let Some(listed) = &mut self.listed {
+            listed.extend((self.next..end).map(BodyHandle));
+        }
+        self.next = end;
+    }
+
+    /// Forgets all but those of these indices, which rise.
+    pub fn keep(&mut self, kept: &[usize]) {
+        self.listed = Some(kept.iter().filter_map(|&index| self.of(index)).collect());
+    }
+
+    /// The bytes that they hold.
+    pub fn bytes(&self) -> usize {
+        self.listed.as_ref().map_or(0, |listed| size_of_val(listed.as_slice()))
+    }
+}
