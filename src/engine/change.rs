@@ -3,7 +3,6 @@
 use core::ops::Range;
 
 use super::handles::Handles;
-use super::later::Elapsed;
 use super::{BodyHandle, Compiled, EngineError, EventDriven, Execution, Stepped, World};
 use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
@@ -386,26 +385,5 @@ impl<T: Real> World<T> {
     #[must_use]
     pub fn index_of(&self, handle: BodyHandle) -> Option<usize> {
         self.base().handles.index_of(handle)
-    }
-}
-
-impl<T: Compiled> World<T> {
-    /// A world of a scene that goes on from what has elapsed.
-    #[cfg(feature = "files")]
-    pub(super) fn later(
-        scene: Scene<T>,
-        execution: Execution,
-        elapsed: Elapsed,
-        handles: Handles,
-    ) -> Result<Self, EngineError> {
-        use crate::scene::EngineKind;
-        Ok(match scene.engine {
-            EngineKind::Stepped => {
-                Self::Stepped(Stepped::later(scene, execution, elapsed, handles)?)
-            }
-            EngineKind::EventDriven => {
-                Self::EventDriven(EventDriven::later(scene, execution, elapsed, handles)?)
-            }
-        })
     }
 }

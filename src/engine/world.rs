@@ -1,6 +1,10 @@
 //! World: a scene in motion, by whichever engine moves it.
 
 #[cfg(feature = "files")]
+use super::handles::Handles;
+#[cfg(feature = "files")]
+use super::later::Elapsed;
+#[cfg(feature = "files")]
 use super::snapshot::{Misfit, SavedLater, Snapshot};
 use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
 use crate::bodies::Bodies;
@@ -89,6 +93,23 @@ impl<T: Compiled> World<T> {
         };
         restored.map_err(misfit)?;
         Ok(world)
+    }
+
+    /// A world of a scene that goes on from what has elapsed.
+    fn later(
+        scene: Scene<T>,
+        execution: Execution,
+        elapsed: Elapsed,
+        handles: Handles,
+    ) -> Result<Self, EngineError> {
+        Ok(match scene.engine {
+            EngineKind::Stepped => {
+                Self::Stepped(Stepped::later(scene, execution, elapsed, handles)?)
+            }
+            EngineKind::EventDriven => {
+                Self::EventDriven(EventDriven::later(scene, execution, elapsed, handles)?)
+            }
+        })
     }
 }
 

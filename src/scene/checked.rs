@@ -68,7 +68,7 @@ impl<T: Real> Scene<T> {
     /// use carom::{Scene, Sphere, Stepped};
     ///
     /// let ball = |x| Sphere::new([x, 0.0, 0.0]).radius(0.5).velocity([1.0 - x, 0.0, 0.0]);
-    /// let scene = Scene::<f64>::builder().dt(0.01).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
+    /// let scene = Scene::<f64>::builder().dt(0.015625).sphere(ball(0.0)).sphere(ball(2.0)).build()?;
     /// let mut world = Stepped::new(scene.clone())?;
     /// world.advance(0.25)?;
     /// let mut bodies = world.bodies();

@@ -146,9 +146,9 @@ mod tests {
         let mean = |runs: &[Outcome]| Mean::of("temperature", runs);
         assert_eq!(mean(&[]), None);
         assert_eq!(mean(&[run(2.0, 0.25)]), Some(Mean { mean: 2.0, error: Some(0.25) }));
-        // s = √(8/2) = 2 of three values.
+        // s² = 8/2 of three values.
         let three = mean(&[run(1.0, 9.0), run(3.0, 9.0), run(5.0, 9.0), Outcome::default()]);
-        assert_eq!(three, Some(Mean { mean: 3.0, error: Some(2.0 / 3.0_f64.sqrt()) }));
+        assert_eq!(three, Some(Mean { mean: 3.0, error: Some((4.0_f64 / 3.0).sqrt()) }));
         assert_eq!(Mean::of("pressure", &[run(1.0, 1.0)]), None);
     }
 
