@@ -1,6 +1,6 @@
 //! Pieces: what one worker holds of a column.
 
-use core::ops::{Index, IndexMut, Range};
+use core::ops::{Index, IndexMut, Range, RangeInclusive};
 
 /// One or two runs of a column, under the numbers that they have in the whole of it. A
 /// worker writes what it holds and reads nothing else.
@@ -46,6 +46,22 @@ impl<'a, V> Pieces<'a, V> {
         } else {
             other.get_mut(at.wrapping_sub(self.starts[1]))
         }
+    }
+
+    /// What is held under a range of numbers, if one run has all of it.
+    #[inline(always)]
+    pub fn run(&self, numbers: RangeInclusive<usize>) -> Option<&[V]> {
+        let [one, other] = &self.runs;
+        let within =
+            |start: usize| numbers.start().wrapping_sub(start)..=numbers.end().wrapping_sub(start);
+        let first = one.get(within(self.starts[0]));
+        first.or_else(|| other.get(within(self.starts[1])))
+    }
+
+    /// The run and the number at which it starts, if there is one only.
+    #[inline(always)]
+    pub fn only_run(&self) -> Option<(&[V], usize)> {
+        self.runs[1].is_empty().then_some((&*self.runs[0], self.starts[0]))
     }
 
     /// How many are held.

@@ -71,9 +71,16 @@ impl<L: Lane> Flight<L> {
     /// The flights of the bodies at some slots.
     #[inline(always)]
     pub fn gather(records: &Pieces<'_, Record<L::Scalar>>, slots: &[u32]) -> Self {
+        let slots = &slots[..L::WIDTH];
         let mut rows = [&records[slots[0] as usize].reals; WIDEST];
-        for (row, &slot) in rows.iter_mut().zip(&slots[..L::WIDTH]) {
-            *row = &records[slot as usize].reals;
+        if let Some((run, start)) = records.only_run() {
+            for k in 1..L::WIDTH {
+                rows[k] = &run[(slots[k] as usize).wrapping_sub(start)].reals;
+            }
+        } else {
+            for k in 1..L::WIDTH {
+                rows[k] = &records[slots[k] as usize].reals;
+            }
         }
         Self::from_columns(L::transpose(&rows))
     }

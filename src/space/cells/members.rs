@@ -63,31 +63,56 @@ impl<'a, T: Real> Members<'a, T> {
     /// these cells are not held.
     #[inline(always)]
     pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> Option<usize> {
-        self.read_lines(self.grid.lines(cell), found)
+        let lines = self.grid.lines(cell);
+        self.read_lines(lines.each_ref().map(|line| &line[..]), found)
     }
 
     /// The bodies in the layer of cells around `cell` that has come near when
     /// it was entered along `axis`, from below if `up`; as [`around`](Members::around).
     #[inline(always)]
     pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> Option<usize> {
-        let mut lines = self.grid.lines(cell);
+        let lines = self.grid.lines(cell);
+        let mut lines = lines.each_ref().map(|line| &line[..]);
         if !self.grid.are_all_neighbours(axis) {
-            let part = lines[axis][if up { 2 } else { 0 }];
-            lines[axis] = [part, NOWHERE, NOWHERE];
+            lines[axis] = if up { &lines[axis][2..] } else { &lines[axis][..1] };
         }
         self.read_lines(lines, found)
     }
 
     #[inline(always)]
-    fn read_lines(&self, [xs, ys, zs]: [[u32; 3]; 3], found: &mut [u32]) -> Option<usize> {
+    fn read_lines(&self, lines: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
+        let [xs, ys, zs] = lines;
+        let least: usize = lines.iter().map(|line| *line.iter().min().unwrap_or(&0) as usize).sum();
+        // Beyond all numbers if one of them is nowhere.
+        let last: usize = lines.iter().map(|line| *line.iter().max().unwrap_or(&0) as usize).sum();
+        let run = self.slots.run(least..=last).filter(|_| self.blocks == 1);
+        let Some(run) = run else { return self.read_lines_with_care(lines, found) };
         let mut len = 0;
-        for z in zs {
-            for y in ys {
-                if z == NOWHERE || y == NOWHERE {
-                    continue;
+        for &z in zs {
+            for &y in ys {
+                for &x in xs {
+                    // A whole block is copied faster than a few numbers are counted.
+                    let block = &run[((x + y + z) as usize).wrapping_sub(least)];
+                    found[len..len + STRIDE].copy_from_slice(block);
+                    let count = block[STRIDE - 1] as usize;
+                    if count >= STRIDE {
+                        return self.read_lines_with_care(lines, found);
+                    }
+                    len += count;
                 }
-                for x in xs {
-                    if x == NOWHERE {
+            }
+        }
+        Some(len)
+    }
+
+    /// Where cells are nowhere, or not held in one run, or have more bodies than a block.
+    #[inline(never)]
+    fn read_lines_with_care(&self, [xs, ys, zs]: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
+        let mut len = 0;
+        for &z in zs {
+            for &y in ys {
+                for &x in xs {
+                    if [x, y, z].contains(&NOWHERE) {
                         continue;
                     }
                     if !self.holds(x + y + z) {
@@ -114,7 +139,6 @@ impl<'a, T: Real> Members<'a, T> {
         if self.blocks > 1 {
             return self.read_blocks(number, found, len);
         }
-        // A whole block is copied faster than a few numbers are counted.
         let block = &self.slots[number as usize];
         found[len..len + STRIDE].copy_from_slice(block);
         let count = block[STRIDE - 1] as usize;
