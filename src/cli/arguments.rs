@@ -104,6 +104,7 @@ Examples:
   carom sweep gas.toml --seeds 100 --set surface.kind=rough --engine event-driven
                                         nothing but seeds
 
+Each run has one thread, and as many go side by side as --threads says.
 Writes runs.csv, means.csv, report.txt and scene.toml into its folder.
 Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 if a run fails or a
 file cannot be written.")]
