@@ -7,17 +7,23 @@
 
 mod approach;
 mod fall;
+mod free_flight;
 mod impulse;
 mod law;
 mod surface;
+mod tangent;
+mod taylor;
 mod time;
 
-pub(crate) use approach::{Approach, greatest_component};
+pub(crate) use approach::{Approach, greatest_component, hop_of};
 pub(crate) use fall::{Start, fall_of_height};
+pub(crate) use free_flight::FreeFlight;
 pub use impulse::{Impulse, Party, collide, collide_spread};
 pub(crate) use law::one_material;
 pub use law::*;
 pub use surface::Surface;
 pub(crate) use surface::with_law;
+pub(crate) use tangent::{March, tangent_march};
+pub(crate) use taylor::{Expansion, first_fall_of, product};
 pub(crate) use time::ContactEquation;
 pub use time::{ContactTime, PastContact, contact_time, past_contact};

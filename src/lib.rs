@@ -77,7 +77,7 @@
 //! [event-driven](EventDriven) engine misses nothing, works on one thread, and
 //! gives an [error](EngineError::Stalled) for a sphere that rests on something
 //! under gravity, which never stops colliding. Bodies are spheres; what is
-//! fixed is a plane, an axis-aligned box or a sphere. Collisions lose no energy:
+//! fixed is one of the shapes of [`surroundings`]. Collisions lose no energy:
 //! there is no restitution below 1 and no friction between "none" and "perfect".
 //! A scene has at most [a hundred million](scene::MOST_BODIES) bodies, and the
 //! squares of its lengths and speeds must be in the precision's range.

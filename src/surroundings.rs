@@ -2,7 +2,8 @@
 //!
 //! A [`Shape`] is one entry of a scene. For the kernels it falls apart into
 //! [`Feature`]s, each of which a sphere can touch in one point at a time: a
-//! container into its six faces, every other shape into itself. A feature knows
+//! hollow box into its six faces, a hollow cylinder into its wall and its ends,
+//! every other shape into one. A feature knows
 //! two things: its [`Clearance`] from a sphere, in one function over lanes, and
 //! the time at which a sphere in free flight comes to it.
 //!
@@ -13,34 +14,89 @@
 // Keys of shapes stand beside the shapes, and only scene files read them.
 #![cfg_attr(not(feature = "files"), allow(dead_code))]
 
+mod axis;
+mod band;
+mod capsule;
+mod cone;
 mod cuboid;
+mod cylinder;
+mod disc;
 mod entry;
+mod facet;
 mod fixed_sphere;
-mod free_flight;
+mod frustum;
 mod mistake;
 mod parts;
+mod piece;
+mod pieced;
 mod plane;
+mod rod;
+mod slant;
 mod solid;
+mod torus;
+mod triangle;
+mod tube;
 
 #[cfg(feature = "files")]
 pub(crate) use entry::{Key, Meaning, NO_VECTOR, ShapeEntry, Value};
 pub(crate) use mistake::{Mistake, corners, finite, is_positive, positive};
 pub(crate) use solid::ShapeKind;
 
-use free_flight::FreeFlight;
+pub use band::Band;
+pub use facet::Facet;
+pub use frustum::Frustum;
+pub use rod::Rod;
+
 use solid::{Obstacle, Solid, solids};
 
+use crate::contact::FreeFlight;
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
 solids! {
-    /// A half space, or a face of a container.
-    plane::Plane,
-    /// A box, solid or hollow.
-    cuboid::Cuboid,
-    /// A sphere, solid or hollow.
-    fixed_sphere::FixedSphere,
+    shapes {
+        /// A half space, or a face of a container.
+        plane::Plane,
+        /// A box, solid or hollow.
+        cuboid::Cuboid,
+        /// A sphere, solid or hollow.
+        fixed_sphere::FixedSphere,
+        /// A thin triangle.
+        triangle::Triangle,
+        /// A capsule, solid or hollow.
+        capsule::Capsule,
+        /// A cylinder with or without ends, solid or hollow.
+        cylinder::Cylinder,
+        /// A cone or a frustum, solid or hollow.
+        cone::Cone,
+        /// A thin disc, which may have a hole.
+        disc::Disc,
+        /// A thin tube or funnel, open at both ends.
+        tube::Tube,
+        /// A torus, solid or hollow.
+        torus::Torus,
+    }
+    features {
+        /// A half space, or a face of a container.
+        Plane,
+        /// A box.
+        Cuboid,
+        /// A sphere, solid or hollow.
+        FixedSphere,
+        /// A thin triangle.
+        Facet,
+        /// A capsule, solid or hollow.
+        Capsule,
+        /// A cylinder without end, solid or hollow.
+        Rod,
+        /// A solid cylinder, cone or frustum.
+        Frustum,
+        /// A thin disc, tube or funnel; or the wall of a hollow cone.
+        Band,
+        /// A torus, solid or hollow.
+        Torus,
+    }
 }
 
 /// Where a sphere stands to a fixed feature.
@@ -135,7 +191,7 @@ impl<T: Real> Feature<T> {
     /// length, `velocity` in length per time and `acceleration` in length per
     /// time²; None is straight flight. The time is that at which the gap falls
     /// through zero: never one at which the sphere comes out again, nor a graze
-    /// without depth.
+    /// without depth, as far as rounding can tell.
     ///
     /// What overlaps the feature, by rounding, counts as touching it: it
     /// collides now, at time 0, if it approaches, and later, when it comes back

@@ -73,12 +73,7 @@ impl<T: Real> Approach<T> {
         if pressing <= T::ZERO || !self.is_hollow {
             return wait;
         }
-        let time = self.reach / pressing.sqrt();
-        let eighth = T::EPSILON.sqrt().sqrt().sqrt();
-        // In precisions finer than a double there would be no end of them.
-        let angle = (eighth * eighth * eighth).greater(T::ratio(1, 1 << 20));
-        let least = T::EPSILON.sqrt() * T::whole(8);
-        if wait <= least * time { (angle + angle) * time } else { wait }
+        hop_of(self.reach / pressing.sqrt(), wait)
     }
 
     /// A time after all zeros of `f`, `f'` and `f''`; None where the path is
@@ -201,6 +196,15 @@ impl<T: Real> Approach<T> {
         );
         first_fall(&[T::ZERO, first, second, horizon], true, divided, counts)
     }
+}
+
+/// As [`Approach::hop`], by the time in which a flight along the inside turns by 1 rad.
+pub(crate) fn hop_of<T: Real>(time: T, wait: T) -> T {
+    let eighth = T::EPSILON.sqrt().sqrt().sqrt();
+    // In precisions finer than a double there would be no end of them.
+    let angle = (eighth * eighth * eighth).greater(T::ratio(1, 1 << 20));
+    let least = T::EPSILON.sqrt() * T::whole(8);
+    if wait <= least * time { (angle + angle) * time } else { wait }
 }
 
 /// The greatest absolute value of the components: between `1/√3` and 1 of the

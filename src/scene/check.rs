@@ -36,11 +36,15 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
         let shape = &given.rounded;
         shape.check().map_err(|mistake| origin.error_in(&entry, mistake))?;
         if is_periodic && shape.bounds().is_none() {
-            let what = shape.interior().map_or(shape.name(), |_| "container");
-            let reason = format!(
-                "a {what} ends space, and a periodic box has no end; leave out one of \
-                 them"
-            );
+            let what = if shape.is_container() { "container" } else { shape.name() };
+            let reason = if shape.is_container() || shape.name() == "plane" {
+                format!(
+                    "a {what} ends space, and a periodic box has no end; leave out one of \
+                     them"
+                )
+            } else {
+                format!("a {what} without end leaves the box; give it a `height` that fits into it")
+            };
             return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
         }
     }

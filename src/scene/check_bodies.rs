@@ -254,12 +254,12 @@ fn surroundings<T: Real>(
     let placed = (0..bodies.len()).filter(|body| !allowance.is_left(*body));
     let Misplaced { shape, body, depth } =
         Obstacles::new(shapes).first_overlap(placed, sphere, tolerated)?;
-    let (beyond, wanted) = match shapes[shape].interior() {
-        Some(_) => (
+    let (beyond, wanted) = match shapes[shape].is_container() {
+        true => (
             format!("outside of its container, surroundings[{shape}]"),
             "every sphere must be wholly inside of it",
         ),
-        None => (
+        false => (
             format!("inside of surroundings[{shape}], which is solid"),
             "a sphere may touch it from outside",
         ),

@@ -12,9 +12,9 @@ impl SceneFile {
     ///
     /// The counts of the groups are multiplied, and all places are dilated about
     /// the origin by the cube root of the same factor: the bounds of the periodic
-    /// box and of the groups, positions, planes, boxes, containers and the
-    /// centres of fixed spheres. Radii of bodies and of fixed spheres stay, those
-    /// of spherical containers do not. A group that fills a cubic lattice, `k³`
+    /// box and of the groups, positions, and all points of what is fixed.
+    /// Radii of bodies, and radii and heights of what is solid or thin, stay; those of
+    /// containers do not. A group that fills a cubic lattice, `k³`
     /// bodies or the `4k³` of a face-centred one, goes on to fill one, so the
     /// number may be missed by a few percent. Places that no longer fit are
     /// mistakes when the scene is [built](Self::build).

@@ -50,10 +50,9 @@ use crate::vec3::Vec3;
 /// how `every` much time, or `wall` minutes, a run is kept.
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
-/// `[[surroundings]]` have a `shape`, `"plane"`, `"box"` or `"sphere"`, and its
-/// keys: see [`Plane`](crate::surroundings::Plane),
-/// [`Cuboid`](crate::surroundings::Cuboid) and
-/// [`FixedSphere`](crate::surroundings::FixedSphere).
+/// `[[surroundings]]` have a `shape` and its keys: `"plane"`, `"box"`, `"sphere"`,
+/// `"triangle"`, `"capsule"`, `"cylinder"`, `"cone"`, `"disc"`, `"tube"` and `"torus"`, each
+/// of which has a type in [`surroundings`](crate::surroundings) that tells its keys.
 ///
 /// | `[[spheres]]` | Default | |
 /// |---|---|---|

@@ -1,23 +1,24 @@
 //! Cuboid: a solid box with its edges and corners, or the hollow in one.
 
-mod part;
-
-use part::Part;
-
+use super::axis::Axis;
 use super::entry::{INSIDE, Key, Meaning, ShapeEntry};
-use super::free_flight::FreeFlight;
-use super::mistake::{Mistake, corners};
+use super::mistake::{Mistake, corners, finite};
+use super::piece::Piece;
+use super::pieced::Pieced;
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature, Plane};
-use crate::contact::greatest_component;
+use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::{Lane, Mask};
+use crate::mat3::Mat3;
+use crate::motion::rotation::reference_rotation;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// An axis-aligned box fixed in space.
+/// A box fixed in space.
 ///
-/// In a scene file: `shape = "box"` with `lower`, `upper` and `inside`;
-/// `inside = true` makes a container.
+/// In a scene file: `shape = "box"` with `lower`, `upper`, `rotation` and `inside`;
+/// `inside = true` makes a container. Its sides are along the axes, but for a
+/// rotation about its middle.
 ///
 /// ```
 /// use carom::surroundings::{Cuboid, Feature};
@@ -29,10 +30,12 @@ use crate::vec3::Vec3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid<T> {
-    /// The corner with the least coordinates, length.
+    /// The corner with the least coordinates, length; before the rotation.
     pub lower: Vec3<T>,
-    /// The corner with the greatest coordinates, length.
+    /// The corner with the greatest coordinates, length; before the rotation.
     pub upper: Vec3<T>,
+    /// How it is turned about its middle; `None`: not at all.
+    pub rotation: Option<Mat3<T>>,
     /// Whether bodies are inside of it: a container.
     pub inside: bool,
 }
@@ -47,7 +50,7 @@ impl<T: Real> Cuboid<T> {
     /// ```
     #[must_use]
     pub fn solid(lower: [T; 3], upper: [T; 3]) -> Self {
-        Self { lower: lower.into(), upper: upper.into(), inside: false }
+        Self { lower: lower.into(), upper: upper.into(), rotation: None, inside: false }
     }
 
     /// A container that bodies are inside of, from its lower to its upper corner,
@@ -59,7 +62,24 @@ impl<T: Real> Cuboid<T> {
     /// ```
     #[must_use]
     pub fn container(lower: [T; 3], upper: [T; 3]) -> Self {
-        Self { lower: lower.into(), upper: upper.into(), inside: true }
+        Self { lower: lower.into(), upper: upper.into(), rotation: None, inside: true }
+    }
+
+    /// The same box turned about its middle by `|rotation|` rad about `rotation`.
+    ///
+    /// ```
+    /// use carom::surroundings::{Cuboid, Feature};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let quarter = [0.0, 0.0, core::f64::consts::FRAC_PI_4];
+    /// let cube = Feature::from(Cuboid::solid([-1.0; 3], [1.0; 3]).turned(quarter));
+    /// let gap = cube.clearance(Vec3::new(2.0, 0.0, 0.0), 0.5).gap;
+    /// assert!((gap - (1.5 - 2.0_f64.sqrt())).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn turned(self, rotation: [T; 3]) -> Self {
+        let rotation = reference_rotation(rotation.into(), T::ONE);
+        Self { rotation: Some(rotation), ..self }
     }
 
     /// The six faces as planes that look into the box.
@@ -73,7 +93,7 @@ impl<T: Real> Cuboid<T> {
     #[must_use]
     pub fn faces(&self) -> [Plane<T>; 6] {
         let [one, zero] = [T::ONE, T::ZERO];
-        let face = |point, normal| Plane { point, normal };
+        let face = |point, normal| Plane { point: self.placed(point), normal: self.along(normal) };
         [
             face(self.lower, Vec3::new(one, zero, zero)),
             face(self.upper, Vec3::new(-one, zero, zero)),
@@ -84,15 +104,42 @@ impl<T: Real> Cuboid<T> {
         ]
     }
 
-    /// Whether a sphere has just bounced off, and is still there.
-    fn is_left(&self, flight: &FreeFlight<T>) -> bool {
-        let gap = self.clearance(flight.center, flight.radius).gap;
-        flight.is_leaving && gap <= self.slack(flight)
+    fn middle(&self) -> Vec3<T> {
+        (self.lower + self.upper) * T::ratio(1, 2)
     }
 
-    /// As [`FreeFlight::slack`], for all of the box.
-    fn slack(&self, flight: &FreeFlight<T>) -> T {
-        flight.slack(self.lower).greater(flight.slack(self.upper))
+    /// A point of the box before its rotation, where it is in the world.
+    fn placed(&self, point: Vec3<T>) -> Vec3<T> {
+        let middle = self.middle();
+        self.rotation.map_or(point, |rotation| middle + rotation * (point - middle))
+    }
+
+    /// A vector of the box before its rotation, as it is in the world.
+    fn along(&self, vector: Vec3<T>) -> Vec3<T> {
+        self.rotation.map_or(vector, |rotation| rotation * vector)
+    }
+
+    /// The corners of the box around it.
+    fn around(&self) -> [Vec3<T>; 2] {
+        let Some(rotation) = self.rotation else { return [self.lower, self.upper] };
+        let half = (self.upper - self.lower) * T::ratio(1, 2);
+        let [a, b, c] = rotation.columns;
+        let reach = |a: T, b: T, c: T| a.abs() * half.x + b.abs() * half.y + c.abs() * half.z;
+        let reach = Vec3::new(reach(a.x, b.x, c.x), reach(a.y, b.y, c.y), reach(a.z, b.z, c.z));
+        [self.middle() - reach, self.middle() + reach]
+    }
+
+    /// The box before its rotation, and a flight as it is seen from there.
+    fn straightened(&self, flight: &FreeFlight<T>) -> (Self, FreeFlight<T>) {
+        let Some(rotation) = self.rotation else { return (*self, *flight) };
+        let (back, middle) = (rotation.transpose(), self.middle());
+        let flight = FreeFlight {
+            center: middle + back * (flight.center - middle),
+            velocity: back * flight.velocity,
+            acceleration: flight.acceleration.map(|pull| back * pull),
+            ..*flight
+        };
+        (Self { rotation: None, ..*self }, flight)
     }
 }
 
@@ -101,6 +148,66 @@ impl<T: Real> Obstacle<T> for Cuboid<T> {
     /// solid is pushed out through the nearest face.
     #[inline(always)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+        let Some(rotation) = self.rotation else {
+            return self.level_clearance(center, radius);
+        };
+        let (rotation, middle) = (Mat3::<L>::splat(rotation), Vec3::splat(self.middle()));
+        let seen = middle + rotation.transpose() * (center - middle);
+        let Clearance { gap, arm } = self.level_clearance(seen, radius);
+        Clearance { gap, arm: rotation * arm }
+    }
+
+    /// The earliest contact with a face, an edge or a corner.
+    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+        let (level, flight) = self.straightened(flight);
+        level.collision_time(&flight)
+    }
+
+    fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        (!self.inside).then(|| self.around())
+    }
+
+    fn farthest(&self) -> f64 {
+        let [lower, upper] = self.around().map(Vec3::cast::<f64>);
+        greatest_component(lower).max(greatest_component(upper))
+    }
+}
+
+impl<T: Real> Pieced<T> for Cuboid<T> {
+    fn is_convex(&self) -> bool {
+        true
+    }
+
+    fn offset(&self, place: Vec3<T>) -> Vec3<T> {
+        place - self.lower.greater(place).lesser(self.upper)
+    }
+
+    /// The faces, edges and corners, by where along each axis they lie.
+    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+        for Plane { point, normal } in self.faces() {
+            visit(Piece::Face { point, normal: -normal });
+        }
+        let [lower, upper] = [self.lower.to_array(), self.upper.to_array()];
+        for corner in 0..8 {
+            let end = |axis: usize| if corner >> axis & 1 == 0 { lower[axis] } else { upper[axis] };
+            let center = Vec3::new(end(0), end(1), end(2));
+            visit(Piece::Corner { center, radius: T::ZERO, is_hollow: false });
+            for axis in 0..3 {
+                if corner >> axis & 1 == 0 {
+                    let unit = |k: usize| if k == axis { T::ONE } else { T::ZERO };
+                    let direction = Vec3::new(unit(0), unit(1), unit(2));
+                    let axis = Axis { center, direction };
+                    visit(Piece::Edge { axis, radius: T::ZERO, is_hollow: false });
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real> Cuboid<T> {
+    /// The clearance before the rotation.
+    #[inline(always)]
+    fn level_clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let lower = Vec3::<L>::splat(self.lower);
         let upper = Vec3::<L>::splat(self.upper);
         let beyond = |c: L, low: L, high: L| c - low.greater(c).lesser(high);
@@ -140,55 +247,43 @@ impl<T: Real> Obstacle<T> for Cuboid<T> {
             arm: Vec3::select(is_outside, away.arm, normal * radius),
         }
     }
-
-    /// The earliest contact with a face, an edge or a corner.
-    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
-        if flight.acceleration.is_none() && self.is_left(flight) {
-            // A straight path never comes back to what is convex.
-            return None;
-        }
-        let faces = Part::faces(self, flight);
-        if faces.iter().any(|face| face.is_outside()) {
-            // Most flights end here: past the box or on a face.
-            let entries = faces.iter().filter_map(|face| face.entry());
-            let first = entries.reduce(|a, b| if b.time < a.time { b } else { a })?;
-            if first.is_contact {
-                return Some(first.time);
-            }
-        }
-        Part::all(self, flight).filter_map(|part| part.contact_time()).reduce(T::lesser)
-    }
-
-    fn bounds(&self) -> Option<[Vec3<T>; 2]> {
-        (!self.inside).then_some([self.lower, self.upper])
-    }
-
-    fn farthest(&self) -> f64 {
-        let [lower, upper] = [self.lower, self.upper].map(Vec3::cast::<f64>);
-        greatest_component(lower).max(greatest_component(upper))
-    }
 }
 
 const LOWER: Key = Key::new("lower", Meaning::Point);
 const UPPER: Key = Key::new("upper", Meaning::Point);
+const ROTATION: Key = Key::new("rotation", Meaning::Direction);
 
 impl<T: Real> Solid<T> for Cuboid<T> {
     type In<B: Real> = Cuboid<B>;
 
     const NAME: &'static str = "box";
-    const KEYS: &'static [Key] = &[LOWER, UPPER, INSIDE];
+    const KEYS: &'static [Key] = &[LOWER, UPPER, ROTATION, INSIDE];
 
     fn read(entry: &ShapeEntry) -> Result<Cuboid<f64>, Mistake> {
         let (lower, upper) = (entry.vector(LOWER)?.into(), entry.vector(UPPER)?.into());
-        Ok(Cuboid { lower, upper, inside: entry.flag(INSIDE) })
+        let level = Cuboid { lower, upper, rotation: None, inside: entry.flag(INSIDE) };
+        if !entry.has(ROTATION) {
+            return Ok(level);
+        }
+        let rotation = entry.vector(ROTATION)?;
+        finite::<f64>(ROTATION.name, rotation.into(), "every component")?;
+        Ok(level.turned(rotation))
     }
 
     fn check(&self) -> Result<(), Mistake> {
-        corners(self.lower, self.upper)
+        corners(self.lower, self.upper)?;
+        let columns = self.rotation.map_or([Vec3::ZERO; 3], |rotation| rotation.columns);
+        for column in columns {
+            finite::<T>(ROTATION.name, column.cast(), "every component of the matrix")?;
+        }
+        Ok(())
     }
 
     fn cast<B: Real>(&self) -> Cuboid<B> {
-        Cuboid { lower: self.lower.cast(), upper: self.upper.cast(), inside: self.inside }
+        let rotation = self
+            .rotation
+            .map(|Mat3 { columns: [a, b, c] }| Mat3::from_columns(a.cast(), b.cast(), c.cast()));
+        Cuboid { lower: self.lower.cast(), upper: self.upper.cast(), rotation, inside: self.inside }
     }
 
     /// A container is six faces.
@@ -197,18 +292,30 @@ impl<T: Real> Solid<T> for Cuboid<T> {
     }
 
     fn points(&self) -> Vec<Vec3<T>> {
-        vec![self.lower, self.upper]
+        self.around().into()
     }
 
     fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
         Self {
             lower: (self.lower - origin) * scale,
             upper: (self.upper - origin) * scale,
+            rotation: self.rotation,
             inside: self.inside,
         }
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {
-        self.inside.then_some([self.lower, self.upper])
+        self.inside.then(|| self.around())
+    }
+
+    /// Turned, it takes a cube.
+    fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
+        let Some(rotation) = self.rotation else { return self.interior() };
+        let half = ((self.upper - self.lower) * T::ratio(1, 2)).to_array();
+        let widths = rotation.columns.map(|axis| axis.x.abs() + axis.y.abs() + axis.z.abs());
+        let fits = half.into_iter().zip(widths).map(|(half, width)| half / width);
+        let reach = fits.reduce(T::lesser)?;
+        let reach = Vec3::new(reach, reach, reach);
+        self.inside.then(|| [self.middle() - reach, self.middle() + reach])
     }
 }

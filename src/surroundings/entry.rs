@@ -22,6 +22,24 @@ pub(crate) struct Key {
     pub(crate) meaning: Meaning,
 }
 
+/// The middle of a shape.
+pub(super) const CENTER: Key = Key::new("center", Meaning::Point);
+
+/// The middle of the base of something round.
+pub(super) const BASE: Key = Key::new("base", Meaning::Point);
+
+/// A vector along the axis of something round.
+pub(super) const AXIS: Key = Key::new("axis", Meaning::Direction);
+
+/// Of something round.
+pub(super) const RADIUS: Key = Key::new("radius", Meaning::Length);
+
+/// The radius at the other end.
+pub(super) const TOP_RADIUS: Key = Key::new("top_radius", Meaning::Length);
+
+/// From end to end along the axis.
+pub(super) const HEIGHT: Key = Key::new("height", Meaning::Length);
+
 /// Whether spheres are inside of the shape: a container.
 pub(super) const INSIDE: Key = Key::new("inside", Meaning::Flag);
 
@@ -73,6 +91,14 @@ impl ShapeEntry {
         match self.value(key) {
             Some(Value::Number(number)) => Ok(number),
             _ => Err(Mistake::missing(key.name, wanted)),
+        }
+    }
+
+    /// The number of a key that may be there.
+    pub(super) fn optional(&self, key: Key) -> Option<f64> {
+        match self.value(key) {
+            Some(Value::Number(number)) => Some(number),
+            _ => None,
         }
     }
 

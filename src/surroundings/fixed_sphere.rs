@@ -1,11 +1,10 @@
 //! Fixed sphere: a solid ball, or the hollow in one.
 
-use super::Clearance;
-use super::entry::{INSIDE, Key, Meaning, ShapeEntry};
-use super::free_flight::FreeFlight;
+use super::entry::{CENTER, INSIDE, Key, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, point, positive};
 use super::solid::{Obstacle, Solid};
-use crate::contact::{Approach, Start, greatest_component};
+use super::{Clearance, Feature};
+use crate::contact::{Approach, FreeFlight, Start, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -120,9 +119,6 @@ impl<T: Real> Obstacle<T> for FixedSphere<T> {
     }
 }
 
-const CENTER: Key = Key::new("center", Meaning::Point);
-const RADIUS: Key = Key::new("radius", Meaning::Length);
-
 impl<T: Real> Solid<T> for FixedSphere<T> {
     type In<B: Real> = FixedSphere<B>;
 
@@ -144,6 +140,10 @@ impl<T: Real> Solid<T> for FixedSphere<T> {
 
     fn cast<B: Real>(&self) -> FixedSphere<B> {
         FixedSphere { center: self.center.cast(), radius: self.radius.cast(), inside: self.inside }
+    }
+
+    fn features(&self) -> Vec<Feature<T>> {
+        vec![(*self).into()]
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -59,6 +59,18 @@ pub(crate) fn positive<T: Real>(key: &'static str, value: f64, what: &str) -> Re
     Err(Mistake::value(key, value, wanted))
 }
 
+/// A mistake unless a number, `what`, is 0, or finite and greater than 0.
+pub(crate) fn not_negative<T: Real>(
+    key: &'static str,
+    value: f64,
+    what: &str,
+) -> Result<(), Mistake> {
+    if value == 0.0 {
+        return Ok(());
+    }
+    positive::<T>(key, value, &format!("{what}, if not 0,"))
+}
+
 /// A mistake unless `what`, all components of a vector, are finite in a
 /// precision.
 pub(crate) fn finite<T: Real>(
@@ -90,4 +102,19 @@ pub(crate) fn corners<T: Real>(lower: Vec3<T>, upper: Vec3<T>) -> Result<(), Mis
     let [lower, upper] = [lower, upper].map(|corner| corner.cast::<f64>().to_array());
     let wanted = format!("every component must be below that of upper, {upper:?}");
     Err(Mistake::value("lower", lower, wanted))
+}
+
+/// A mistake unless a direction has come out as a unit vector.
+pub(crate) fn direction<T: Real>(key: &'static str, unit: Vec3<T>) -> Result<(), Mistake> {
+    if (unit.length().to_f64() - 1.0).abs() < 1e-3 {
+        return Ok(());
+    }
+    let wanted = format!("{} must be finite and have a length greater than 0", an(key));
+    Err(Mistake::described(key, "no direction", wanted))
+}
+
+/// A key with its article.
+fn an(key: &str) -> String {
+    let article = if key.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {key}")
 }

@@ -1,11 +1,10 @@
 //! Plane: a half space of solid.
 
-use super::Clearance;
 use super::entry::{Key, Meaning, ShapeEntry};
-use super::free_flight::FreeFlight;
-use super::mistake::{Mistake, point};
+use super::mistake::{Mistake, direction, point};
 use super::solid::{Obstacle, Solid};
-use crate::contact::{Start, fall_of_height, greatest_component};
+use super::{Clearance, Feature};
+use crate::contact::{FreeFlight, Start, fall_of_height, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -91,16 +90,15 @@ impl<T: Real> Solid<T> for Plane<T> {
 
     fn check(&self) -> Result<(), Mistake> {
         point(POINT.name, self.point)?;
-        let length = self.normal.length().to_f64();
-        if (length - 1.0).abs() < 1e-3 {
-            return Ok(());
-        }
-        let wanted = "a normal must be finite and have a length greater than 0";
-        Err(Mistake::described(NORMAL.name, "no direction", wanted))
+        direction(NORMAL.name, self.normal)
     }
 
     fn cast<B: Real>(&self) -> Plane<B> {
         Plane { point: self.point.cast(), normal: self.normal.cast() }
+    }
+
+    fn features(&self) -> Vec<Feature<T>> {
+        vec![(*self).into()]
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -1,9 +1,9 @@
 //! Solid: what a shape has to know. All of it stands in the shape's own file.
 
 use super::entry::{Key, ShapeEntry};
-use super::free_flight::FreeFlight;
 use super::mistake::Mistake;
 use super::{Clearance, Feature};
+use crate::contact::FreeFlight;
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -39,7 +39,7 @@ pub(crate) trait Obstacle<T: Real> {
 }
 
 /// A fixed solid, as a scene names it: the scene's side of a shape.
-pub(crate) trait Solid<T: Real>: Clone + Into<Feature<T>> {
+pub(crate) trait Solid<T: Real>: Clone {
     /// The same shape in another precision.
     type In<B: Real>: Solid<B>;
 
@@ -67,11 +67,14 @@ pub(crate) trait Solid<T: Real>: Clone + Into<Feature<T>> {
 
     /// What a sphere can touch in one point at a time: the shape itself, or
     /// what it falls apart into.
-    fn features(&self) -> Vec<Feature<T>> {
-        vec![self.clone().into()]
+    fn features(&self) -> Vec<Feature<T>>;
+
+    /// Whether spheres are inside.
+    fn is_container(&self) -> bool {
+        self.interior().is_some()
     }
 
-    /// The corners of the box around the hollow, if spheres are inside.
+    /// The corners of the box around the hollow, if spheres are inside of one that ends.
     fn interior(&self) -> Option<[Vec3<T>; 2]> {
         None
     }
@@ -94,10 +97,13 @@ pub(crate) struct ShapeKind {
     pub(crate) read: fn(&ShapeEntry) -> Result<super::Shape<f64>, Mistake>,
 }
 
-/// Makes of a list of solids, each by its module and type, the enums and all
-/// that chooses between them.
+/// Makes of two lists, of solids and of what spheres touch of them, each by its module and
+/// type, the enums and all that chooses between them.
 macro_rules! solids {
-    ($($(#[$doc:meta])* $module:ident::$solid:ident,)*) => {
+    (
+        shapes { $($(#[$doc:meta])* $module:ident::$solid:ident,)* }
+        features { $($(#[$touched_doc:meta])* $touched:ident,)* }
+    ) => {
         $(pub use $module::$solid;)*
 
         /// A fixed solid, as a scene names it.
@@ -130,7 +136,7 @@ macro_rules! solids {
         #[derive(Clone, Copy, Debug)]
         #[non_exhaustive]
         pub enum Feature<T> {
-            $($(#[$doc])* $solid($solid<T>),)*
+            $($(#[$touched_doc])* $touched($touched<T>),)*
         }
 
         $(
@@ -140,16 +146,20 @@ macro_rules! solids {
                 }
             }
 
-            impl<T> From<$solid<T>> for Feature<T> {
-                fn from(solid: $solid<T>) -> Self {
-                    Self::$solid(solid)
+        )*
+
+        $(
+            impl<T> From<$touched<T>> for Feature<T> {
+                fn from(touched: $touched<T>) -> Self {
+                    Self::$touched(touched)
                 }
             }
         )*
 
         impl<T: Real> Shape<T> {
-            /// The features that a sphere can touch: the six faces of a
-            /// container, every other shape itself.
+            /// The features that a sphere can touch, each in one point at a time:
+            /// the six faces of a hollow box, the wall and the ends of a hollow
+            /// cylinder or cone, one of every other shape.
             ///
             /// ```
             /// use carom::surroundings::{Plane, Shape};
@@ -165,7 +175,7 @@ macro_rules! solids {
 
             /// The box around the region that the shape encloses as a container,
             /// `lower` and `upper` corner, length; `None` for a shape that spheres
-            /// stay outside of.
+            /// stay outside of, and for one without end.
             ///
             /// ```
             /// use carom::surroundings::{FixedSphere, Shape};
@@ -209,6 +219,13 @@ macro_rules! solids {
                 }
             }
 
+            /// As [`Solid::is_container`].
+            pub(crate) fn is_container(&self) -> bool {
+                match self {
+                    $(Self::$solid(solid) => solid.is_container(),)*
+                }
+            }
+
             /// As [`Solid::inscribed`].
             pub(crate) fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
                 match self {
@@ -235,37 +252,37 @@ macro_rules! solids {
             #[inline(always)]
             fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
                 match self {
-                    $(Self::$solid(solid) => solid.clearance(center, radius),)*
+                    $(Self::$touched(touched) => touched.clearance(center, radius),)*
                 }
             }
 
             fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
                 match self {
-                    $(Self::$solid(solid) => solid.contact_time(flight),)*
+                    $(Self::$touched(touched) => touched.contact_time(flight),)*
                 }
             }
 
             fn bounds(&self) -> Option<[Vec3<T>; 2]> {
                 match self {
-                    $(Self::$solid(solid) => solid.bounds(),)*
+                    $(Self::$touched(touched) => touched.bounds(),)*
                 }
             }
 
             fn farthest(&self) -> f64 {
                 match self {
-                    $(Self::$solid(solid) => solid.farthest(),)*
+                    $(Self::$touched(touched) => touched.farthest(),)*
                 }
             }
 
             fn is_hollow(&self) -> bool {
                 match self {
-                    $(Self::$solid(solid) => Obstacle::is_hollow(solid),)*
+                    $(Self::$touched(touched) => Obstacle::is_hollow(touched),)*
                 }
             }
 
             fn hop(&self, flight: &FreeFlight<T>, wait: T) -> T {
                 match self {
-                    $(Self::$solid(solid) => solid.hop(flight, wait),)*
+                    $(Self::$touched(touched) => touched.hop(flight, wait),)*
                 }
             }
         }

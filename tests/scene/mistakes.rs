@@ -206,22 +206,113 @@ fn boxes_that_cannot_be() {
     );
 }
 
+/// What is said to the keys of a shape, the first of which stands on line 4.
+fn shape_message(shape: &str, keys: &str) -> String {
+    message(&format!("[[surroundings]]\nshape = \"{shape}\"\n{keys}\n{BALL}"))
+}
+
+#[test]
+fn round_shapes_that_cannot_be() {
+    let cases = [
+        ("triangle", "a = [0, 0, 5]\nb = [1, 0, 5]", "s.toml:2: surroundings[0].c is missing; "),
+        (
+            "triangle",
+            "a = [0, 0, 5]\nb = [1, 1, 5]\nc = [3, 3, 5]",
+            "s.toml:6: surroundings[0].c is [3.0, 3.0, 5.0]; the corners must not lie on one ",
+        ),
+        (
+            "triangle",
+            "a = [0, 0, 5]\nb = [1, inf, 5]\nc = [3, 3, 5]",
+            "s.toml:5: surroundings[0].b is [1.0, inf, 5.0]; every component must be finite",
+        ),
+        (
+            "capsule",
+            "a = [0, 0, 5]\nb = [0, 0, 5]\nradius = 1",
+            "s.toml:5: surroundings[0].b is [0.0, 0.0, 5.0]; it must be another point than a, ",
+        ),
+        (
+            "cylinder",
+            "center = [0, 0, 5]\naxis = [0, 0, 0]\nradius = 1",
+            "s.toml:5: surroundings[0].axis is no direction; an axis must be finite and ",
+        ),
+        (
+            "cylinder",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1\nheight = 0",
+            "s.toml:7: surroundings[0].height is 0.0; a height must be finite and greater than 0",
+        ),
+        (
+            "cylinder",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1\ntop_radius = 2",
+            "s.toml:7: surroundings[0].top_radius cannot stand beside shape = \"cylinder\": ",
+        ),
+        (
+            "cone",
+            "base = [0, 0, 5]\naxis = [0, 0, 1]\nheight = 2\nradius = 0",
+            "s.toml:7: surroundings[0].radius is 0.0; the base or the top must have a radius",
+        ),
+        (
+            "cone",
+            "base = [0, 0, 5]\naxis = [0, 0, 1]\nheight = 2\nradius = 1\ntop_radius = -1",
+            "s.toml:8: surroundings[0].top_radius is -1.0; a radius, if not 0, must be finite ",
+        ),
+        (
+            "disc",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1\nhole_radius = 1",
+            "s.toml:7: surroundings[0].hole_radius is 1.0; it must be less than the radius of the ",
+        ),
+        (
+            "tube",
+            "axis = [0, 0, 1]\nheight = 2\nradius = 1",
+            "s.toml:2: surroundings[0].base is missing; three numbers belong here",
+        ),
+        (
+            "torus",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1\ntube_radius = 1.5",
+            "s.toml:7: surroundings[0].tube_radius is 1.5; it must be less than the radius of ",
+        ),
+        (
+            "box",
+            "lower = [0, 0, 5]\nupper = [1, 1, 6]\nrotation = [nan, 0, 0]",
+            "s.toml:6: surroundings[0].rotation is [NaN, 0.0, 0.0]; every component must be ",
+        ),
+        (
+            "torus",
+            "center = [0, 0, 0]\naxis = [0, 0, 1]\nradius = 1\ntube_radius = 0.5",
+            "s.toml:8: spheres[0] puts body 0 inside of surroundings[0], which is solid, ",
+        ),
+    ];
+    for (shape, keys, expected) in cases {
+        assert_starts(&shape_message(shape, keys), expected);
+    }
+    // An endless one in a periodic box, and one that is too near its faces.
+    let periodic = "periodic = { lower = [-9, -9, -9], upper = [9, 9, 9] }\n";
+    let endless = "[[surroundings]]\nshape = \"cylinder\"\ncenter = [0, 0, 5]\naxis = [1, 0, 0]\n\
+                   radius = 1\n";
+    assert_starts(
+        &message(&format!("{periodic}{endless}{BALL}")),
+        "s.toml:3: surroundings[0] cannot ",
+    );
+    let near = format!("{periodic}{endless}height = 17\n{BALL}");
+    assert_starts(&message(&near), "s.toml:3: surroundings[0] is too near to the faces ");
+}
+
 #[test]
 fn shapes_that_cannot_be() {
     let shape = |keys: &str| message(&format!("[[surroundings]]\n{keys}\n{BALL}"));
     assert_starts(&shape("inside = true"), "s.toml:2: surroundings[0].shape is missing; it is ");
     assert_eq!(
-        shape("shape = \"cone\""),
-        "s.toml:3: surroundings[0].shape is `cone`; it must be one of `plane`, `box`, `sphere`"
+        shape("shape = \"cube\""),
+        "s.toml:3: surroundings[0].shape is `cube`; it must be one of `plane`, `box`, `sphere`, \
+         `triangle`, `capsule`, `cylinder`, `cone`, `disc`, `tube`, `torus`"
+    );
+    assert_starts(
+        &shape("shape = 3"),
+        "s.toml:3: surroundings[0].shape is integer `3`; it must be one of `plane`, `box`, ",
     );
     assert_eq!(
-        shape("shape = 3"),
-        "s.toml:3: surroundings[0].shape is integer `3`; it must be one of `plane`, `box`, `sphere`"
-    );
-    assert_eq!(
-        shape("shape = \"plane\"\naxis = [0, 0, 1]"),
-        "s.toml:4: surroundings[0].axis is not a key that means something here; known are \
-         `shape`, `point`, `normal`, `lower`, `upper`, `center`, `radius`, `inside`"
+        shape("shape = \"plane\"\nhole = [0, 0, 1]"),
+        "s.toml:4: surroundings[0].hole is not a key that means something here; known are \
+         `shape`, `point`, `normal`, `lower`, `upper`, `rotation`, `c`, `a`, `b`, `hole_radius`, `base`, `height`, `top_radius`, `center`, `axis`, `radius`, `tube_radius`, `inside`"
     );
     assert_eq!(
         shape("shape = \"sphere\"\ncenter = 3"),

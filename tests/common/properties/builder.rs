@@ -11,7 +11,9 @@ use carom::scene::{
     Spheres, Spread, Summation,
 };
 use carom::space::PeriodicBox;
-use carom::surroundings::{Cuboid, FixedSphere, Plane, Shape};
+use carom::surroundings::{
+    Capsule, Cone, Cuboid, Cylinder, Disc, FixedSphere, Plane, Shape, Torus, Triangle, Tube,
+};
 
 use super::draws::Draws;
 use super::engines::show;
@@ -84,12 +86,25 @@ fn shape<T: Real>(draws: &mut Draws) -> Shape<T> {
     let t3 = |vector: [f64; 3]| vector.map(T::from_f64);
     let (first, second) = (t3(draws.vector()), t3(draws.vector()));
     let radius = T::from_f64(draws.figure());
-    match draws.below(5) {
+    let (third, other) = (t3(draws.vector()), T::from_f64(draws.figure()));
+    let is_container = draws.flag();
+    match draws.below(10) {
         0 => Plane::new(first, second).into(),
-        1 => Cuboid::solid(first, second).into(),
-        2 => Cuboid::container(first, second).into(),
-        3 => FixedSphere::solid(first, radius).into(),
-        _ => FixedSphere::container(first, radius).into(),
+        1 if is_container => Cuboid::container(first, second).into(),
+        1 => Cuboid::solid(first, second).turned(third).into(),
+        2 if is_container => FixedSphere::container(first, radius).into(),
+        2 | 3 => FixedSphere::solid(first, radius).into(),
+        4 => Triangle::new(first, second, third).into(),
+        5 if is_container => Capsule::container(first, second, radius).into(),
+        5 => Capsule::solid(first, second, radius).into(),
+        6 if is_container => Cylinder::container(first, second, radius, Some(other)).into(),
+        6 => Cylinder::solid(first, second, radius, Some(other)).into(),
+        7 if is_container => Cone::container(first, second, radius, [other, T::ONE]).into(),
+        7 => Cone::solid(first, second, radius, [other, T::ZERO]).into(),
+        8 if is_container => Disc::new(first, second, radius, other).into(),
+        8 => Tube::new(first, second, radius, [other, T::ONE]).into(),
+        _ if is_container => Torus::container(first, second, radius, other).into(),
+        _ => Torus::solid(first, second, radius, other).into(),
     }
 }
 

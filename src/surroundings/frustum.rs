@@ -1,0 +1,99 @@
+//! Frustum: a solid cylinder or cone with its ends.
+
+use super::Clearance;
+use super::axis::{Axis, joined};
+use super::piece::Piece;
+use super::pieced::Pieced;
+use super::slant::Slant;
+use super::solid::Obstacle;
+use crate::contact::{FreeFlight, greatest_component};
+use crate::lane::Lane;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// What a sphere touches of a solid [`Cylinder`](super::Cylinder) with ends, or of a
+/// solid [`Cone`](super::Cone).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frustum<T> {
+    /// From the base up.
+    axis: Axis<T>,
+    /// Out of the axis along the base, up the wall, and back along the top.
+    profile: [Slant<T>; 3],
+}
+
+impl<T: Real> Frustum<T> {
+    /// About an axis from the middle of its base, with the radii of its base and its top.
+    pub(super) fn new(axis: Axis<T>, height: T, [base, top]: [T; 2]) -> Self {
+        let corners = [[T::ZERO, T::ZERO], [base, T::ZERO], [top, height], [T::ZERO, height]];
+        let mut profile: [Slant<T>; 3] =
+            core::array::from_fn(|k| Slant::new(corners[k], corners[k + 1]));
+        // Also of a tip.
+        profile[2].along = [-T::ONE, T::ZERO];
+        Self { axis, profile }
+    }
+
+    /// The distance from the surface, negative inside, and the unit normal.
+    #[inline(always)]
+    fn nearest<L: Lane<Scalar = T>>(&self, place: Vec3<L>) -> (L, Vec3<L>) {
+        let place = self.axis.place(place);
+        let mut is_inside = L::ZERO.le(L::ZERO);
+        let mut best = None;
+        for slant in &self.profile {
+            let beside = slant.beside(place.distance, place.height);
+            is_inside = is_inside & !beside.is_right;
+            let (distance, normal) = best.unwrap_or((beside.distance, beside.normal));
+            let is_nearer = beside.distance.lt(distance);
+            let pick = |k: usize| L::select(is_nearer, beside.normal[k], normal[k]);
+            best = Some((L::select(is_nearer, beside.distance, distance), [pick(0), pick(1)]));
+        }
+        let (distance, [out, up]) = best.unwrap_or((L::ZERO, [L::ZERO, L::ZERO]));
+        let normal = place.outward * out + Vec3::splat(self.axis.direction) * up;
+        (L::select(is_inside, -distance, distance), Vec3::select(is_inside, -normal, normal))
+    }
+}
+
+impl<T: Real> Obstacle<T> for Frustum<T> {
+    /// A centre inside is pushed out through the nearest face.
+    #[inline(always)]
+    fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
+        let (distance, normal) = self.nearest(center);
+        Clearance { gap: distance - radius, arm: normal * radius }
+    }
+
+    fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+        self.collision_time(flight)
+    }
+
+    fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+        let [base, _, top] = self.profile.map(|slant| slant.bounds(&self.axis));
+        Some(joined(base, top))
+    }
+
+    fn farthest(&self) -> f64 {
+        let [base, _, top] = self.profile.map(|slant| slant.bounds(&self.axis));
+        let corners = [base, top].concat();
+        corners.iter().map(|corner| greatest_component(corner.cast())).fold(0.0, f64::max)
+    }
+}
+
+impl<T: Real> Pieced<T> for Frustum<T> {
+    fn is_convex(&self) -> bool {
+        true
+    }
+
+    fn offset(&self, place: Vec3<T>) -> Vec3<T> {
+        let (distance, normal) = self.nearest(place);
+        normal * distance.greater(T::ZERO)
+    }
+
+    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+        let Self { axis, profile: [_, wall, _] } = *self;
+        visit(Piece::Face { point: axis.center, normal: -axis.direction });
+        visit(Piece::Wall { axis, slant: wall, is_hollow: false });
+        let [_, height] = wall.end;
+        visit(Piece::Face { point: axis.point(height), normal: axis.direction });
+        for end in [wall.start, wall.end] {
+            visit(Piece::at_end(axis, end));
+        }
+    }
+}

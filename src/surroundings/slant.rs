@@ -1,0 +1,86 @@
+//! Slant: a straight line of a profile, turned about an axis.
+
+use super::axis::{Axis, joined};
+use crate::lane::{Lane, Mask};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// A line from one place of a half plane to another, each by its distance from the axis
+/// and its height: what is turned about the axis to a disc, a cylinder or a cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slant<T> {
+    /// Distance and height of its first end, length.
+    pub(super) start: [T; 2],
+    /// Distance and height of its second end, length.
+    pub(super) end: [T; 2],
+    /// The unit vector from the first end to the second one.
+    pub(super) along: [T; 2],
+    /// Length.
+    pub(super) length: T,
+}
+
+/// Where a place of the half plane is to a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside<L: Lane> {
+    /// Length, from the line's nearest point.
+    pub(super) distance: L,
+    /// From there, distance from the axis and height of the unit vector.
+    pub(super) normal: [L; 2],
+    /// Whether that is on the line's right-hand side, as seen from its first end with the
+    /// axis on the left.
+    pub(super) is_right: L::Mask,
+}
+
+impl<T: Real> Slant<T> {
+    /// From one end to the other; a line of no length leads out.
+    pub(super) fn new(start: [T; 2], end: [T; 2]) -> Self {
+        let [out, up] = [end[0] - start[0], end[1] - start[1]];
+        let length = (out * out + up * up).sqrt();
+        let along = if length > T::ZERO { [out / length, up / length] } else { [T::ONE, T::ZERO] };
+        Self { start, end, along, length }
+    }
+
+    /// The unit normal to the right: out of the axis, of what goes up.
+    pub(super) fn right(&self) -> [T; 2] {
+        [self.along[1], -self.along[0]]
+    }
+
+    /// Where places are to the line.
+    #[inline(always)]
+    pub(super) fn beside<L: Lane<Scalar = T>>(&self, distance: L, height: L) -> Beside<L> {
+        let [out, up] = self.along.map(L::splat);
+        let from_start = [distance - L::splat(self.start[0]), height - L::splat(self.start[1])];
+        let from_end = [distance - L::splat(self.end[0]), height - L::splat(self.end[1])];
+        let along = from_start[0] * out + from_start[1] * up;
+        let right = from_start[0] * up - from_start[1] * out;
+        let is_right = right.ge(L::ZERO);
+
+        // Between the ends by the line's own normal, which rounding of the place leaves
+        // alone.
+        let side = L::select(is_right, L::ONE, -L::ONE);
+        let is_before = along.le(L::ZERO);
+        let is_beyond = along.ge(L::splat(self.length));
+        let is_between = !is_before & !is_beyond;
+        let level = Beside { distance: right.abs(), normal: [up * side, -(out * side)], is_right };
+        if is_between.all() {
+            return level;
+        }
+        let pick = |k: usize| L::select(is_before, from_start[k], from_end[k]);
+        let offset = [pick(0), pick(1)];
+        let to_end = (offset[0] * offset[0] + offset[1] * offset[1]).sqrt();
+        let is_off = is_between | !to_end.gt(L::ZERO);
+        let normal = |k: usize| L::select(is_off, level.normal[k], offset[k] / to_end);
+        Beside {
+            distance: L::select(is_between, level.distance, to_end),
+            normal: [normal(0), normal(1)],
+            is_right,
+        }
+    }
+
+    /// The corners of the box around what it makes, length.
+    pub(super) fn bounds(&self, axis: &Axis<T>) -> [Vec3<T>; 2] {
+        let [start, end] =
+            [self.start, self.end].map(|[distance, height]| axis.around(height, distance));
+        joined(start, end)
+    }
+}

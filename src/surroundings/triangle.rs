@@ -1,0 +1,91 @@
+//! Triangle: a thin one, touched from both sides.
+
+use super::entry::{Key, Meaning, ShapeEntry};
+use super::mistake::{Mistake, point};
+use super::solid::Solid;
+use super::{Facet, Feature};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// A thin triangle fixed in space, touched from both sides, at its edges and its corners.
+///
+/// In a scene file: `shape = "triangle"` with the corners `a`, `b` and `c`.
+///
+/// ```
+/// use carom::surroundings::{Shape, Triangle};
+/// use carom::vec3::Vec3;
+///
+/// let triangle = Triangle::new([0.0; 3], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]);
+/// let [facet] = Shape::from(triangle).features()[..] else { return };
+/// assert_eq!(facet.clearance(Vec3::new(1.0, 1.0, -2.0), 0.5).gap, 1.5);
+/// assert_eq!(facet.clearance(Vec3::new(-3.0, -4.0, 0.0), 0.5).gap, 4.5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle<T> {
+    /// The corners, length.
+    pub corners: [Vec3<T>; 3],
+}
+
+impl<T: Real> Triangle<T> {
+    /// The triangle with these corners, length.
+    ///
+    /// ```
+    /// use carom::surroundings::Triangle;
+    /// let triangle = Triangle::new([0.0; 3], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]);
+    /// assert_eq!(triangle.corners[1].x, 3.0);
+    /// ```
+    #[must_use]
+    pub fn new(a: [T; 3], b: [T; 3], c: [T; 3]) -> Self {
+        Self { corners: [a.into(), b.into(), c.into()] }
+    }
+}
+
+const CORNERS: [Key; 3] =
+    [Key::new("a", Meaning::Point), Key::new("b", Meaning::Point), Key::new("c", Meaning::Point)];
+
+impl<T: Real> Solid<T> for Triangle<T> {
+    type In<B: Real> = Triangle<B>;
+
+    const NAME: &'static str = "triangle";
+    const KEYS: &'static [Key] = &CORNERS;
+
+    fn read(entry: &ShapeEntry) -> Result<Triangle<f64>, Mistake> {
+        let [a, b, c] = CORNERS;
+        Ok(Triangle::new(entry.vector(a)?, entry.vector(b)?, entry.vector(c)?))
+    }
+
+    fn check(&self) -> Result<(), Mistake> {
+        let [a, b, c] = self.corners;
+        for (key, corner) in CORNERS.iter().zip(self.corners) {
+            point(key.name, corner)?;
+        }
+        let sides = [b - a, c - b, a - c];
+        let longest = sides.map(|side| side.length_squared()).into_iter().fold(T::ZERO, T::greater);
+        let area = sides[0].cross(sides[1]).length();
+        // In the precision's own rounding, the sides are along one line.
+        if longest.is_finite() && area > T::whole(4) * T::EPSILON * longest {
+            return Ok(());
+        }
+        let wanted = format!(
+            "the corners must not lie on one line, nor farther apart than {} can square",
+            T::NAME
+        );
+        Err(Mistake::value(CORNERS[2].name, c.cast::<f64>().to_array(), wanted))
+    }
+
+    fn cast<B: Real>(&self) -> Triangle<B> {
+        Triangle { corners: self.corners.map(|corner| corner.cast()) }
+    }
+
+    fn features(&self) -> Vec<Feature<T>> {
+        vec![Facet::new(self.corners).into()]
+    }
+
+    fn points(&self) -> Vec<Vec3<T>> {
+        self.corners.into()
+    }
+
+    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+        Self { corners: self.corners.map(|corner| (corner - origin) * scale) }
+    }
+}

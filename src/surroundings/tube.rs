@@ -1,0 +1,110 @@
+//! Tube: a thin tube or funnel, open at both ends.
+
+use super::axis::{Axis, joined};
+use super::entry::{AXIS, BASE, HEIGHT, Key, RADIUS, ShapeEntry, TOP_RADIUS};
+use super::mistake::{Mistake, direction, not_negative, point, positive};
+use super::slant::Slant;
+use super::solid::Solid;
+use super::{Band, Feature};
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// A thin tube fixed in space, open at both ends, touched from inside, from outside and at
+/// its rims; with another radius at its top it is a funnel.
+///
+/// In a scene file: `shape = "tube"` with the middle of its `base`, the `axis` from there,
+/// `height`, `radius` at the base, and `top_radius`, by default the same.
+///
+/// ```
+/// use carom::surroundings::{Shape, Tube};
+/// use carom::vec3::Vec3;
+///
+/// let tube = Tube::new([0.0; 3], [0.0, 0.0, 1.0], 4.0, [3.0, 3.0]);
+/// let [tube] = Shape::from(tube).features()[..] else { return };
+/// assert_eq!(tube.clearance(Vec3::new(1.0, 0.0, 2.0), 0.5).gap, 1.5);
+/// assert_eq!(tube.clearance(Vec3::new(5.0, 0.0, 2.0), 0.5).gap, 1.5);
+/// assert_eq!(tube.clearance(Vec3::new(0.0, 0.0, 8.0), 0.5).gap, 4.5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tube<T> {
+    /// From the middle of the base.
+    axis: Axis<T>,
+    height: T,
+    /// Of the base and the top.
+    radii: [T; 2],
+}
+
+impl<T: Real> Tube<T> {
+    /// A tube: the middle of its base, its axis, of any length but 0, its height, and its
+    /// radii at the base and the top, one of which may be 0; lengths.
+    ///
+    /// ```
+    /// use carom::surroundings::{Shape, Tube};
+    /// let funnel = Shape::from(Tube::new([0.0; 3], [0.0, 0.0, 1.0], 4.0, [0.5, 3.0]));
+    /// let corners = funnel.features()[0].bounds().map(|corners| corners.map(|c| c.to_array()));
+    /// assert_eq!(corners, Some([[-3.0, -3.0, 0.0], [3.0, 3.0, 4.0]]));
+    /// ```
+    #[must_use]
+    pub fn new(base: [T; 3], axis: [T; 3], height: T, radii: [T; 2]) -> Self {
+        Self { axis: Axis::new(base, axis), height, radii }
+    }
+}
+
+impl<T: Real> Solid<T> for Tube<T> {
+    type In<B: Real> = Tube<B>;
+
+    const NAME: &'static str = "tube";
+    const KEYS: &'static [Key] = &[BASE, AXIS, HEIGHT, RADIUS, TOP_RADIUS];
+
+    fn read(entry: &ShapeEntry) -> Result<Tube<f64>, Mistake> {
+        let radius = entry.number(RADIUS, "a tube has the radius of its base")?;
+        Ok(Tube {
+            axis: Axis::new(entry.vector(BASE)?, entry.vector(AXIS)?),
+            height: entry.number(HEIGHT, "a tube has a height greater than 0")?,
+            radii: [radius, entry.optional(TOP_RADIUS).unwrap_or(radius)],
+        })
+    }
+
+    fn check(&self) -> Result<(), Mistake> {
+        point(BASE.name, self.axis.center)?;
+        direction(AXIS.name, self.axis.direction)?;
+        positive::<T>(HEIGHT.name, self.height.to_f64(), "a height")?;
+        let [base, top] = self.radii.map(T::to_f64);
+        if base == 0.0 && top == 0.0 {
+            return Err(Mistake::value(
+                RADIUS.name,
+                base,
+                "the base or the top must have a radius",
+            ));
+        }
+        not_negative::<T>(RADIUS.name, base, "a radius")?;
+        not_negative::<T>(TOP_RADIUS.name, top, "a radius")
+    }
+
+    fn cast<B: Real>(&self) -> Tube<B> {
+        Tube {
+            axis: self.axis.cast(),
+            height: self.height.cast(),
+            radii: self.radii.map(Real::cast),
+        }
+    }
+
+    fn features(&self) -> Vec<Feature<T>> {
+        let [base, top] = self.radii;
+        let slant = Slant::new([base, T::ZERO], [top, self.height]);
+        vec![Band { axis: self.axis, slant, is_lining: false }.into()]
+    }
+
+    fn points(&self) -> Vec<Vec3<T>> {
+        let [base, top] = self.radii;
+        joined(self.axis.around(T::ZERO, base), self.axis.around(self.height, top)).into()
+    }
+
+    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+        Self {
+            axis: self.axis.in_frame(origin, scale),
+            height: self.height * scale,
+            radii: self.radii.map(|radius| radius * scale),
+        }
+    }
+}
