@@ -62,7 +62,7 @@ impl Cuts {
 
     /// The slots of a piece.
     fn slots_of(&self, piece: usize) -> Range<usize> {
-        starts(&self.slots, [piece; 2])[0]..self.slots[piece]
+        start(&self.slots, piece)..self.slots[piece]
     }
 }
 
@@ -150,10 +150,17 @@ impl<T: Real> Team<T> {
     ) {
         let Self { workers, pool, cuts } = self;
         let count = workers.len();
+        // Two pieces that adjoin are dealt out as one run. In an odd phase the last worker
+        // has the last piece and the first one, which adjoin in a periodic box.
         let pieces_of = |k: usize| match is_odd {
             false => [2 * k, 2 * k + 1],
             true => [2 * k + 1, (2 * k + 2) % (2 * count)],
         };
+        let runs_of = |k: usize| match is_odd {
+            false => [Some(k), None],
+            true => [Some(k + 1), (k + 1 == count).then_some(0)],
+        };
+        let [slots, numbers] = [&cuts.slots, &cuts.cells].map(|ends| run_ends(ends, is_odd));
         let log_of = |k: usize| 1 + k + if is_odd { count } else { 0 };
         for (k, worker) in workers.iter_mut().enumerate() {
             worker.log = core::mem::replace(&mut store.logs[log_of(k)], Log::new(log_of(k)));
@@ -161,41 +168,46 @@ impl<T: Real> Team<T> {
         let mut spilled: Vec<_> = workers.iter().map(|_| Default::default()).collect();
         let Store { records, coarse, agendas, marks, next, spins, turned, index, .. } = store;
         let (screening, logs) = (&store.screening, &store.logs[..]);
-        let mut records = Dealt::new(records, cuts);
-        let mut coarse = Dealt::new(coarse, cuts);
-        let mut agendas = Dealt::new(agendas, cuts);
-        let mut marks = Dealt::new(marks, cuts);
-        let mut next = Dealt::new(next, cuts);
-        let mut spins = Dealt::new(spins, cuts);
-        let mut turned = Dealt::new(turned, cuts);
-        let CutCells { grid, blocks, runs } = store.cells.only().cut(cuts.cells.iter().copied());
+        let mut records = Dealt::new(records, &slots);
+        let mut coarse = Dealt::new(coarse, &slots);
+        let mut agendas = Dealt::new(agendas, &slots);
+        let mut marks = Dealt::new(marks, &slots);
+        let mut next = Dealt::new(next, &slots);
+        let mut spins = Dealt::new(spins, &slots);
+        let mut turned = Dealt::new(turned, &slots);
+        let CutCells { grid, blocks, runs } = store.cells.only().cut(numbers.iter().copied());
         let mut cells = Dealt { runs: runs.into_iter().map(Some).collect() };
         let mut items: Vec<_> = workers
             .iter_mut()
             .zip(&mut spilled)
             .enumerate()
             .map(|(k, (worker, spilled))| {
-                let pieces = pieces_of(k);
-                let starts = starts(&cuts.slots, pieces);
-                let held = cells.deal(pieces);
-                let cell_starts = self::starts(&cuts.cells, pieces);
+                let held = runs_of(k);
+                let starts = starts(&slots, held);
+                let cell_starts = self::starts(&numbers, held);
                 let region = Region {
-                    records: Pieces::of(records.deal(pieces), starts),
-                    coarse: Pieces::of(coarse.deal(pieces), starts),
-                    agendas: Pieces::of(agendas.deal(pieces), starts),
-                    marks: Pieces::of(marks.deal(pieces), starts),
-                    next: Pieces::of(next.deal(pieces), starts),
-                    spins: Pieces::of(spins.deal(pieces), starts),
-                    turned: Pieces::of(turned.deal(pieces), starts),
+                    records: Pieces::of(records.deal(held), starts),
+                    coarse: Pieces::of(coarse.deal(held), starts),
+                    agendas: Pieces::of(agendas.deal(held), starts),
+                    marks: Pieces::of(marks.deal(held), starts),
+                    next: Pieces::of(next.deal(held), starts),
+                    spins: Pieces::of(spins.deal(held), starts),
+                    turned: Pieces::of(turned.deal(held), starts),
                     index,
-                    cells: Held::one(Members::of(grid, blocks, held, cell_starts, spilled)),
+                    cells: Held::one(Members::of(
+                        grid,
+                        blocks,
+                        cells.deal(held),
+                        cell_starts,
+                        spilled,
+                    )),
                     screening,
                     logs,
                     worker,
                     window: Some(window),
                     is_whole: false,
                 };
-                (region, pieces)
+                (region, pieces_of(k))
             })
             .collect();
         pool.each(&mut items, |(region, pieces)| {
@@ -212,25 +224,36 @@ impl<T: Real> Team<T> {
     }
 }
 
-/// Where pieces start, by where all of them end.
-fn starts(ends: &[usize], pieces: [usize; 2]) -> [usize; 2] {
-    pieces.map(|piece| if piece == 0 { 0 } else { ends[piece - 1] })
+/// Where runs of a phase end, by where the pieces end.
+fn run_ends(ends: &[usize], is_odd: bool) -> Vec<usize> {
+    let pairs = ends.iter().skip(usize::from(!is_odd)).step_by(2);
+    pairs.chain(ends.last().filter(|_| is_odd)).copied().collect()
 }
 
-/// A column in pieces, each of which is dealt out once.
+/// Where runs start, by where all of them end.
+fn starts(ends: &[usize], runs: [Option<usize>; 2]) -> [usize; 2] {
+    runs.map(|run| run.map_or(0, |run| start(ends, run)))
+}
+
+/// Where a part starts, by where all of them end.
+fn start(ends: &[usize], part: usize) -> usize {
+    if part == 0 { 0 } else { ends[part - 1] }
+}
+
+/// A column in runs, each of which is dealt out once.
 struct Dealt<'a, V> {
     runs: Vec<Option<&'a mut [V]>>,
 }
 
 impl<'a, V> Dealt<'a, V> {
-    fn new(column: &'a mut [V], cuts: &Cuts) -> Self {
+    fn new(column: &'a mut [V], ends: &[usize]) -> Self {
         // A column that a scene has no use for is empty.
         let len = column.len();
-        let runs = cut(column, cuts.slots.iter().map(|&end| end.min(len)));
+        let runs = cut(column, ends.iter().map(|&end| end.min(len)));
         Self { runs: runs.into_iter().map(Some).collect() }
     }
 
-    fn deal(&mut self, pieces: [usize; 2]) -> [&'a mut [V]; 2] {
-        pieces.map(|piece| self.runs[piece].take().unwrap_or_default())
+    fn deal(&mut self, runs: [Option<usize>; 2]) -> [&'a mut [V]; 2] {
+        runs.map(|run| run.and_then(|run| self.runs[run].take()).unwrap_or_default())
     }
 }
