@@ -167,8 +167,9 @@ impl Plan {
 }
 
 /// From this number of bodies on windows are faster than strict order on one thread, and
-/// on several. Measured: below, all that is read stays in a cache.
-const MANY: [usize; 2] = [20_000, 4_000];
+/// on several. Measured: below, all that is read stays in a cache, and too many bodies are
+/// at borders of territories.
+const MANY: [usize; 2] = [24_000, 16_000];
 
 /// The most threads that share a window: each has two of at most 64 logs.
 const MOST_THREADS: usize = 31;
