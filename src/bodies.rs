@@ -95,8 +95,7 @@ impl<T: Real> PerBody<T> {
         }
     }
 
-    /// The bytes that the figures hold.
-    /// Gives one of so many bodies a value of its own.
+    /// Gives one of `len` bodies a value of its own.
     pub(crate) fn set(&mut self, len: usize, index: usize, value: T) {
         if let Self::Same(same) = *self {
             if same == value {
@@ -110,6 +109,7 @@ impl<T: Real> PerBody<T> {
         }
     }
 
+    /// The bytes that the figures hold.
     pub(crate) fn bytes(&self) -> usize {
         match self {
             Self::Same(_) => 0,

@@ -120,6 +120,22 @@ pub struct Clearance<L> {
 }
 
 impl<L: Lane> Clearance<L> {
+    /// Of a sphere and what is round, with the radius `fixed` about a line or a point from
+    /// which the centre is off by `offset`, as long as `distance`.
+    ///
+    /// The arm is in proportion to the true distance, as for two free spheres: at contact
+    /// it has length r exactly.
+    #[inline(always)]
+    fn round(offset: Vec3<L>, distance: L, fixed: L, radius: L, is_hollow: bool) -> Self {
+        if is_hollow {
+            let reach = fixed - radius;
+            Self { gap: reach - distance, arm: -(offset * (radius / reach)) }
+        } else {
+            let reach = fixed + radius;
+            Self { gap: distance - reach, arm: offset * (radius / reach) }
+        }
+    }
+
     /// How far a sphere is to be moved so that the two surfaces just touch, length.
     ///
     /// ```

@@ -1,9 +1,12 @@
 //! A world that is changed goes on as a new world that is built in that state.
 
+mod common;
+
 use carom::bodies::Bodies;
 use carom::engine::{Change, Compiled, Event, Execution, Partner, Snapshot, World};
 use carom::scene::{EngineKind, Scene, SceneFile};
 use carom::state_hash;
+use common::numbers::noise;
 
 /// Rough spheres of many sizes that fall about in a box, a ball fixed in its middle.
 const BOX: &str = r#"
@@ -102,16 +105,6 @@ fn tell<T: Compiled>(world: &mut World<T>, duration: f64) -> Story {
         }
     }
     Story { events, hash: state_hash(&world.bodies()).to_string() }
-}
-
-/// Numbers from 0 to 1 without an order.
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 /// Changes this and that, in the units of the scene, and gives the state that it makes.

@@ -13,7 +13,7 @@ use std::path::Path;
 use carom::scene::builtin_scenes;
 use properties::{Inputs, Outcome, PROPERTIES};
 
-/// Tries a property on so many inputs, of which so many are to be scenes.
+/// Tries a property on `count` inputs, of which at least `least` are to be scenes.
 fn tries(name: &str, count: u64, least: usize) {
     let is_text = name == "text";
     let texts = builtin_scenes().iter().map(|scene| scene.text.as_bytes().to_vec());

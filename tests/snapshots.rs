@@ -1,8 +1,11 @@
 //! A run that is cut anywhere and goes on from a snapshot is the run that was never cut.
 
+mod common;
+
 use carom::engine::{Compiled, Execution, Lanes, Order, Snapshot, World};
 use carom::scene::EngineKind;
 use carom::{SceneFile, state_hash};
+use common::numbers::noise;
 
 /// Rough spheres of many sizes that fall about in a box, a ball fixed in its middle.
 const BOX: &str = r#"
@@ -139,16 +142,6 @@ fn scene_file(text: &str, engine: EngineKind) -> SceneFile {
     let mut file = SceneFile::parse("scene", text).unwrap();
     file.engine = engine;
     file
-}
-
-/// Numbers from 0 to 1 without an order.
-fn noise(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
 
 /// The story of a run cut at random, each part on other lanes and threads.

@@ -31,7 +31,7 @@ pub struct AskedEvents {
 }
 
 impl AskedEvents {
-    /// What the options ask, of a scene of so many bodies.
+    /// What the options ask, of a scene with a number of bodies.
     pub fn of(
         arguments: &RunArguments,
         bodies: usize,

@@ -104,7 +104,7 @@ impl Planned {
     }
 }
 
-/// Does this with so many threads; with as many as there are cores if no number is given.
+/// Does this with a number of threads; with as many as there are cores if no number is given.
 fn side_by_side<R: Send>(
     threads: Option<u64>,
     work: impl FnOnce() -> Result<R, StudyError> + Send,

@@ -101,7 +101,7 @@ impl<T: Real> SphereTree<T> {
         })
     }
 
-    /// The spheres, so many of them, whose surfaces are nearest to a point, length; the
+    /// The `count` spheres whose surfaces are nearest to a point, length; the
     /// nearest first, equal ones by their numbers. A point inside is nearer the deeper it
     /// is.
     #[must_use]

@@ -86,15 +86,7 @@ impl<T: Real> Obstacle<T> for Capsule<T> {
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let offset = self.off_line(center);
         let distance = offset.length();
-        let fixed = L::splat(self.radius);
-        // In proportion to the true distance: at contact the arm has length r exactly.
-        if self.inside {
-            let reach = fixed - radius;
-            Clearance { gap: reach - distance, arm: -(offset * (radius / reach)) }
-        } else {
-            let reach = fixed + radius;
-            Clearance { gap: distance - reach, arm: offset * (radius / reach) }
-        }
+        Clearance::round(offset, distance, L::splat(self.radius), radius, self.inside)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -2,8 +2,8 @@
 
 use super::axis::{Axis, inscribed, joined};
 use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry, TOP_RADIUS};
-use super::mistake::{Mistake, direction, not_negative, point, positive};
-use super::slant::Slant;
+use super::mistake::Mistake;
+use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature, Frustum, Plane};
 use crate::real::Real;
@@ -85,19 +85,7 @@ impl<T: Real> Solid<T> for Cone<T> {
     }
 
     fn check(&self) -> Result<(), Mistake> {
-        point(BASE.name, self.axis.center)?;
-        direction(AXIS.name, self.axis.direction)?;
-        positive::<T>(HEIGHT.name, self.height.to_f64(), "a height")?;
-        let [base, top] = self.radii.map(T::to_f64);
-        if base == 0.0 && top == 0.0 {
-            return Err(Mistake::value(
-                RADIUS.name,
-                base,
-                "the base or the top must have a radius",
-            ));
-        }
-        not_negative::<T>(RADIUS.name, base, "a radius")?;
-        not_negative::<T>(TOP_RADIUS.name, top, "a radius")
+        check_slanted(&self.axis, self.height, self.radii)
     }
 
     fn cast<B: Real>(&self) -> Cone<B> {

@@ -82,16 +82,7 @@ impl<T: Real> Obstacle<T> for FixedSphere<T> {
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let offset = center - Vec3::splat(self.center);
         let distance = offset.length();
-        let fixed_radius = L::splat(self.radius);
-        // The arm in proportion to the true distance, as for two free spheres:
-        // at contact it has length r exactly.
-        if self.inside {
-            let reach = fixed_radius - radius;
-            Clearance { gap: reach - distance, arm: -(offset * (radius / reach)) }
-        } else {
-            let reach = fixed_radius + radius;
-            Clearance { gap: distance - reach, arm: offset * (radius / reach) }
-        }
+        Clearance::round(offset, distance, L::splat(self.radius), radius, self.inside)
     }
 
     /// For centres at the sum of the radii, inside at their difference.

@@ -30,16 +30,8 @@ impl<T: Real> Obstacle<T> for Rod<T> {
     #[inline(always)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let place = self.axis.place(center);
-        let fixed = L::splat(self.radius);
         let across = place.outward * place.distance;
-        // In proportion to the true distance: at contact the arm has length r exactly.
-        if self.inside {
-            let reach = fixed - radius;
-            Clearance { gap: reach - place.distance, arm: -(across * (radius / reach)) }
-        } else {
-            let reach = fixed + radius;
-            Clearance { gap: place.distance - reach, arm: across * (radius / reach) }
-        }
+        Clearance::round(across, place.distance, L::splat(self.radius), radius, self.inside)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -1,6 +1,8 @@
 //! Slant: a straight line of a profile, turned about an axis.
 
 use super::axis::{Axis, joined};
+use super::entry::{AXIS, BASE, HEIGHT, RADIUS, TOP_RADIUS};
+use super::mistake::{Mistake, direction, not_negative, point, positive};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -83,4 +85,22 @@ impl<T: Real> Slant<T> {
             [self.start, self.end].map(|[distance, height]| axis.around(height, distance));
         joined(start, end)
     }
+}
+
+/// A mistake unless these are the axis from the middle of a base, the height and the radii
+/// of base and top of what is round and slanted.
+pub(super) fn check_slanted<T: Real>(
+    axis: &Axis<T>,
+    height: T,
+    radii: [T; 2],
+) -> Result<(), Mistake> {
+    point(BASE.name, axis.center)?;
+    direction(AXIS.name, axis.direction)?;
+    positive::<T>(HEIGHT.name, height.to_f64(), "a height")?;
+    let [base, top] = radii.map(T::to_f64);
+    if base == 0.0 && top == 0.0 {
+        return Err(Mistake::value(RADIUS.name, base, "the base or the top must have a radius"));
+    }
+    not_negative::<T>(RADIUS.name, base, "a radius")?;
+    not_negative::<T>(TOP_RADIUS.name, top, "a radius")
 }

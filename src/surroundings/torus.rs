@@ -75,15 +75,7 @@ impl<T: Real> Obstacle<T> for Torus<T> {
         let out = place.distance - L::splat(self.radius);
         let distance = (out * out + place.height * place.height).sqrt();
         let offset = place.outward * out + Vec3::splat(self.axis.direction) * place.height;
-        let tube = L::splat(self.tube_radius);
-        // In proportion to the true distance: at contact the arm has length r exactly.
-        if self.inside {
-            let reach = tube - radius;
-            Clearance { gap: reach - distance, arm: -(offset * (radius / reach)) }
-        } else {
-            let reach = tube + radius;
-            Clearance { gap: distance - reach, arm: offset * (radius / reach) }
-        }
+        Clearance::round(offset, distance, L::splat(self.tube_radius), radius, self.inside)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

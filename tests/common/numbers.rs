@@ -86,6 +86,16 @@ macro_rules! bits {
 
 bits!(f32: u32, f64: u64);
 
+/// Numbers from 0 to 1 without an order.
+pub fn noise(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
 /// The xxh3 hash of the bits of some numbers.
 pub fn hash<T: Real>(values: impl IntoIterator<Item = T>) -> u64 {
     let mut bytes = Vec::new();

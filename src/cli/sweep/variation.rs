@@ -68,7 +68,7 @@ pub fn choices(variations: &[Variation]) -> Vec<Vec<&str>> {
     choices
 }
 
-/// How many runs that makes, each choice with so many seeds.
+/// How many runs that makes, each choice with a number of seeds.
 pub fn count(variations: &[Variation], seeds: u64) -> Result<u64, Failure> {
     let counts = variations.iter().map(|variation| variation.values.len() as u64);
     let runs = counts.fold(seeds, u64::saturating_mul);

@@ -3,7 +3,7 @@
 //! A collision at the time at which one of its flights starts follows the one that
 //! started it. Its *generation* is how many at this one time have led to it. Of equal
 //! times the lesser generation comes first, of equal generations the lesser rank. All
-//! of it is told by the two flights alone: the order is the same however it was found.
+//! of it follows from the two flights alone: the order is the same however it was found.
 
 use super::agenda::{Expected, PartnerCode};
 use super::flight::Record;

@@ -156,7 +156,7 @@ impl Heap {
         self.first.clear();
     }
 
-    /// The body whose turn is next, and the digits of its time, if that was told.
+    /// The body whose turn is next, and the digits of its time, if it has one.
     #[inline(always)]
     pub fn pop(&mut self) -> Option<(u32, Option<u64>)> {
         if let Some(slot) = self.first.pop() {
@@ -164,6 +164,23 @@ impl Heap {
         }
         let Reverse(turn) = self.turns.pop()?;
         Some((turn as u32, Some((turn >> u32::BITS) as u64)))
+    }
+}
+
+impl<'a, T: Real> Region<'a, T> {
+    /// What tells the order of contacts, as [`keys`](Region::keys), beside what is put in
+    /// that order.
+    #[inline(always)]
+    pub fn in_order(&mut self) -> (Keys<'_, T>, &mut Pieces<'a, Agenda<T>>, &mut Calendar<T>) {
+        let worker = &mut *self.worker;
+        let keys = Keys {
+            records: &self.records,
+            marks: &self.marks,
+            index: self.index,
+            logs: Logs { own: &worker.log, others: self.logs },
+            base: base(&self.window),
+        };
+        (keys, &mut self.agendas, &mut worker.calendar)
     }
 }
 

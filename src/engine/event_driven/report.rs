@@ -1,4 +1,4 @@
-//! Report: collisions as they are told to who listens.
+//! Report: collisions as the listener receives them.
 
 use super::clock::Clock;
 use super::outcome::{FeatureOutcome, PairOutcome};

@@ -4,10 +4,8 @@ use super::agenda::{Expected, PartnerCode};
 use super::coarse::put_down;
 use super::features::search_features;
 use super::flight::{Flight, WIDEST};
-use super::key::Keys;
-use super::log::Logs;
 use super::meeting::{TOGETHER, meeting};
-use super::region::{Region, base};
+use super::region::Region;
 use super::setting::Setting;
 use crate::engine::plan::Plan;
 use crate::lane::{Lane, Mask};
@@ -347,15 +345,9 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
 /// Keeps a contact of the body in a slot if it is among its first.
 #[inline(always)]
 pub(super) fn keep<T: Real>(region: &mut Region<'_, T>, slot: u32, found: Expected<T>) {
-    let keys = Keys {
-        records: &region.records,
-        marks: &region.marks,
-        index: region.index,
-        logs: Logs { own: &region.worker.log, others: region.logs },
-        base: base(&region.window),
-    };
+    let (keys, agendas, _) = region.in_order();
     let comes_first = |a: &Expected<T>, b: &Expected<T>| keys.of(slot, a) < keys.of(slot, b);
-    region.agendas[slot as usize].keep(found, comes_first);
+    agendas[slot as usize].keep(found, comes_first);
 }
 
 /// Whether each of two bodies has met no other since they met each other.

@@ -8,8 +8,7 @@ use super::clock::Clock;
 use super::collide::{collide_pair, collide_with_feature};
 use super::crossing::cross;
 use super::key::{Keys, Rank};
-use super::log::Logs;
-use super::region::{Region, base};
+use super::region::Region;
 use super::report::{feature_event, pair_event};
 use super::search::{Blocked, find, search};
 use super::setting::Setting;
@@ -19,33 +18,19 @@ use crate::real::Real;
 /// The next turn, left in the calendar.
 #[inline(always)]
 pub(super) fn next_turn<T: Real>(region: &mut Region<'_, T>) -> Option<Turn<T>> {
-    let agendas = &region.agendas;
-    let keys = Keys {
-        records: &region.records,
-        marks: &region.marks,
-        index: region.index,
-        logs: Logs { own: &region.worker.log, others: region.logs },
-        base: base(&region.window),
-    };
+    let (keys, agendas, calendar) = region.in_order();
     let next = |slot: u32| agendas[slot as usize].next();
     let time_of = |slot: u32| agendas[slot as usize].next_time();
-    region.worker.calendar.next(time_of, |a, b| order(&keys, next, a, b))
+    calendar.next(time_of, |a, b| order(&keys, next, a, b))
 }
 
 /// Enters a turn.
 #[inline(always)]
 pub(super) fn enter<T: Real>(region: &mut Region<'_, T>, turn: Turn<T>) {
-    let agendas = &region.agendas;
-    let keys = Keys {
-        records: &region.records,
-        marks: &region.marks,
-        index: region.index,
-        logs: Logs { own: &region.worker.log, others: region.logs },
-        base: base(&region.window),
-    };
+    let (keys, agendas, calendar) = region.in_order();
     let next = |slot: u32| agendas[slot as usize].next();
     let time_of = |slot: u32| agendas[slot as usize].next_time();
-    region.worker.calendar.enter(turn, time_of, |a, b| order(&keys, next, a, b));
+    calendar.enter(turn, time_of, |a, b| order(&keys, next, a, b));
 }
 
 /// Takes a turn. Returns whether it was a collision. Blocked only where not all bodies

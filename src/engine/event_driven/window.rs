@@ -145,7 +145,7 @@ fn take_turn<T: Real>(
 }
 
 /// Whether the next contact of the body in a slot is tied with others that were found
-/// before its partners were what they are now: their order has to be told again.
+/// before its partners were what they are now: their order has to be found again.
 #[inline(always)]
 fn is_unsettled<T: Real>(region: &Region<'_, T>, slot: u32, time: T) -> bool {
     region.agendas[slot as usize].is_tied() && !region.worker.settled.contains(&(slot, time))
@@ -210,12 +210,7 @@ fn collide_now<T: Real>(
     key: Key<T>,
 ) -> Result<(), Blocked> {
     let cells = pair.map(|slot| cell_at(setting, region, slot, key.time));
-    let nearby = [0, 1].map(|k| find(setting, region, k, pair[k], cells[k]));
-    let [one, other] = nearby;
-    let nearby = [one?, other?];
-    if !cells.iter().all(|&cell| region.can_enter(cell, 2)) {
-        return Err(Blocked);
-    }
+    let nearby = find_both(setting, region, pair, cells, 2)?;
     collide(setting, region, clock, pair, cells, nearby, &key);
     Ok(())
 }
@@ -234,17 +229,29 @@ fn collide_in_past<T: Real>(
     let position = setting.state_of(&flight, key.time).0;
     let cells =
         [cell_at(setting, region, pair[0], key.time), region.cells.finest.grid.cell_of(position)];
-    let nearby = [0, 1].map(|k| find(setting, region, k, pair[k], cells[k]));
-    let [one, other] = nearby;
-    let nearby = [one?, other?];
     let bodies = 2 + region.worker.undo.len();
-    if !cells.iter().all(|&cell| region.can_enter(cell, bodies)) {
-        return Err(Blocked);
-    }
+    let nearby = find_both(setting, region, pair, cells, bodies)?;
     undo(setting, region);
     collide(setting, region, clock, pair, cells, nearby, &key);
     look_again(setting, region, clock, pair);
     Ok(())
+}
+
+/// Finds the bodies near two that collide in cells, which some bodies may have to enter.
+#[inline(always)]
+fn find_both<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<'_, T>,
+    pair: [u32; 2],
+    cells: [[i32; 3]; 2],
+    bodies: usize,
+) -> Result<[Nearby; 2], Blocked> {
+    let nearby = [
+        find(setting, region, 0, pair[0], cells[0])?,
+        find(setting, region, 1, pair[1], cells[1])?,
+    ];
+    let can_enter = cells.iter().all(|&cell| region.can_enter(cell, bodies));
+    can_enter.then_some(nearby).ok_or(Blocked)
 }
 
 /// The collision itself, once all that it needs is known to be held.

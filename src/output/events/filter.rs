@@ -6,7 +6,7 @@ use crate::engine::{Event, Partner};
 use crate::real::Real;
 
 /// Which collisions are wanted: those from a time on, of some bodies, and of these every
-/// so many.
+/// nth.
 ///
 /// ```
 /// use carom::output::EventFilter;
@@ -49,7 +49,7 @@ impl EventFilter {
         Self { from: Some(time), ..self }
     }
 
-    /// Of all others that are wanted the first, and then every so many; 0 is as 1.
+    /// Of all others that are wanted the first, and then every `every`th; 0 is as 1.
     #[must_use]
     pub fn every(self, every: u64) -> Self {
         Self { every: Some(every.max(1)), ..self }
@@ -61,13 +61,13 @@ impl EventFilter {
         Self { bodies, ..self }
     }
 
-    /// How many collisions were wanted so far, those between every so many counted.
+    /// How many collisions were wanted so far, those that `every` leaves out counted.
     #[must_use]
     pub fn passed(&self) -> u64 {
         self.passed
     }
 
-    /// The same after so many.
+    /// The same after `passed` wanted ones.
     #[must_use]
     pub fn after(self, passed: u64) -> Self {
         Self { passed, ..self }

@@ -39,7 +39,7 @@ const HOSTILE: [f64; 32] = [
 /// Bytes, read in order; zeros where they end.
 pub struct Draws<'a> {
     bytes: &'a [u8],
-    /// Of 256 numbers so many are hostile.
+    /// How many of 256 numbers are hostile.
     hostile: u8,
 }
 

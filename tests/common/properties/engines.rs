@@ -95,7 +95,7 @@ fn goes_on_as_a_new_scene<T: Compiled>(scene: &Scene<T>, run: &Run<T>, time: f64
     scene.with_bodies(later.bodies).unwrap_or_else(|error| panic!("{error}"));
 }
 
-/// All events up to the last of some times, or up to the time of the last of so many.
+/// All events up to the last of some times, or up to the time of the last of a number.
 fn story<T: Compiled>(
     scene: &Scene<T>,
     execution: Execution,
