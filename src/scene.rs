@@ -42,6 +42,8 @@ mod figures;
 #[cfg(feature = "files")]
 mod file;
 mod filling;
+#[cfg(feature = "files")]
+mod fixed;
 mod generate;
 #[cfg(feature = "files")]
 mod lines;

@@ -3,7 +3,7 @@
 //! A [`Shape`] is one entry of a scene. For the kernels it falls apart into
 //! [`Feature`]s, each of which a sphere can touch in one point at a time: a
 //! hollow box into its six faces, a hollow cylinder into its wall and its ends,
-//! every other shape into one. A feature knows
+//! a profile turned about an axis at its concave corners, most shapes into one. A feature knows
 //! two things: its [`Clearance`] from a sphere, in one function over lanes, and
 //! the time at which a sphere in free flight comes to it.
 //!
@@ -17,7 +17,9 @@
 mod axis;
 mod band;
 mod capsule;
+mod chain;
 mod cone;
+mod convex_hull;
 mod cuboid;
 mod cylinder;
 mod disc;
@@ -25,11 +27,15 @@ mod entry;
 mod facet;
 mod fixed_sphere;
 mod frustum;
+mod hull;
 mod mistake;
 mod parts;
 mod piece;
 mod pieced;
+mod placement;
 mod plane;
+mod polytope;
+mod revolved;
 mod rod;
 mod slant;
 mod solid;
@@ -40,11 +46,14 @@ mod tube;
 #[cfg(feature = "files")]
 pub(crate) use entry::{Key, Meaning, NO_VECTOR, ShapeEntry, Value};
 pub(crate) use mistake::{Mistake, corners, finite, is_positive, positive};
+pub(crate) use placement::Placement;
 pub(crate) use solid::ShapeKind;
 
 pub use band::Band;
+pub use chain::Chain;
 pub use facet::Facet;
 pub use frustum::Frustum;
+pub use polytope::Polytope;
 pub use rod::Rod;
 
 use solid::{Obstacle, Solid, solids};
@@ -64,6 +73,8 @@ solids! {
         fixed_sphere::FixedSphere,
         /// A thin triangle.
         triangle::Triangle,
+        /// A convex hull.
+        hull::Hull,
         /// A capsule, solid or hollow.
         capsule::Capsule,
         /// A cylinder with or without ends, solid or hollow.
@@ -76,6 +87,8 @@ solids! {
         tube::Tube,
         /// A torus, solid or hollow.
         torus::Torus,
+        /// A profile turned about an axis: thin, solid or hollow.
+        revolved::Revolved,
     }
     features {
         /// A half space, or a face of a container.
@@ -86,6 +99,8 @@ solids! {
         FixedSphere,
         /// A thin triangle.
         Facet,
+        /// A convex hull.
+        Polytope,
         /// A capsule, solid or hollow.
         Capsule,
         /// A cylinder without end, solid or hollow.
@@ -96,6 +111,8 @@ solids! {
         Band,
         /// A torus, solid or hollow.
         Torus,
+        /// Lines of a profile turned about an axis, on one side of which is something solid.
+        Chain,
     }
 }
 

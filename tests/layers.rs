@@ -82,7 +82,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 26] = [
+const SCENE: [&str; 27] = [
     "settings",
     "spheres",
     "random",
@@ -105,6 +105,7 @@ const SCENE: [&str; 26] = [
     "pieces",
     "reading",
     "state_file",
+    "fixed",
     "file",
     "outputs",
     "source",

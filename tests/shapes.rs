@@ -6,8 +6,8 @@ mod common;
 use carom::lane::Lane;
 use carom::real::Real;
 use carom::surroundings::{
-    Capsule, Cone, Cuboid, Cylinder, Disc, Feature, FixedSphere, Plane, Shape, Torus, Triangle,
-    Tube,
+    Capsule, Cone, Cuboid, Cylinder, Disc, Feature, FixedSphere, Hull, Plane, Revolved, Shape,
+    Torus, Triangle, Tube,
 };
 use carom::vec3::Vec3;
 use common::numbers::Random;
@@ -57,6 +57,73 @@ fn parts() -> Vec<(&'static str, Vec<Shape<f64>>)> {
             vec![Triangle::new([-1.0, -1.0, 0.0], [2.0, -0.5, 0.5], [0.25, 1.75, -0.25]).into()],
         ),
     ]
+}
+
+/// The same parts, made in another way.
+fn other_parts() -> Vec<(&'static str, Vec<Shape<f64>>)> {
+    let (lower, upper) = ([-1.0, -1.5, -0.5], [2.0, 0.5, 1.0]);
+    let corner = |k: usize| core::array::from_fn(|axis| [lower, upper][k >> axis & 1][axis]);
+    let inner = (0..40).map(|k| {
+        let share = |axis: usize| f64::from((k * (axis as u32 + 3)) % 7) / 6.0;
+        core::array::from_fn(|axis| lower[axis] + share(axis) * (upper[axis] - lower[axis]))
+    });
+    let thin = |axis, profile: &[[f64; 2]]| Revolved::thin(PLACE, axis, profile.to_vec()).into();
+    let can = [[0.0, -1.5], [2.0, -1.5], [2.0, 1.5], [0.0, 1.5]];
+    let frustum = [[0.0, -2.0], [3.0, -2.0], [1.5, 0.0], [0.0, 0.0]];
+    let cylinder = Shape::from(Cylinder::solid([0.0; 3], UP, 1.0, None)).scaled(2.0);
+    let tilt = (1.0_f64 / 3.0).acos();
+    let hopper = [[0.5, -4.0], [0.5, -2.0], [3.5, 2.0], [3.5, 5.0]];
+    vec![
+        ("box", vec![Hull::new((0..8).map(corner).chain(inner)).into()]),
+        ("capped-cylinder", vec![Revolved::solid(PLACE, TILTED, can).into()]),
+        ("capped-cylinder-inside", vec![Revolved::container(PLACE, TILTED, can).into()]),
+        ("frustum", vec![Revolved::solid(PLACE, TILTED, frustum).into()]),
+        ("disc", vec![thin(TILTED, &[[2.0, 0.0], [0.0, 0.0]])]),
+        ("annulus", vec![thin(TILTED, &[[1.0, 0.0], [2.0, 0.0]])]),
+        ("tube", vec![thin(TILTED, &[[2.0, 1.5], [2.0, -1.5]])]),
+        ("funnel", vec![thin(UP, &[[0.5, -2.0], [3.5, 2.0]])]),
+        ("hopper", vec![thin(UP, &hopper)]),
+        ("cone-inside", vec![Cone::endless_container(PLACE, UP, 0.75).into()]),
+        ("cylinder", vec![cylinder.turned([-2.0, 2.0, 0.0], tilt).moved(PLACE)]),
+        (
+            "torus",
+            vec![
+                Shape::from(Torus::solid([0.0; 3], UP, 1.5, 0.5))
+                    .scaled(2.0)
+                    .moved(PLACE)
+                    .turned_about(PLACE, [-2.0, 2.0, 0.0], -1.5)
+                    .turned_about(PLACE, [-2.0, 2.0, 0.0], tilt + 1.5),
+            ],
+        ),
+    ]
+}
+
+/// Parts of which there are no exact shots.
+fn further_parts() -> Vec<(&'static str, Vec<Shape<f64>>)> {
+    let spool = [[0.0, -2.0], [2.0, -2.0], [0.75, -0.5], [0.75, 0.5], [2.0, 2.0], [0.0, 1.5]];
+    let bottle = [[0.0, -3.0], [2.5, -3.0], [2.5, 0.5], [1.0, 2.0], [1.0, 3.0], [0.0, 3.5]];
+    let ring = [[1.5, -0.5], [2.5, -0.75], [2.0, 0.75]];
+    let mut random = Random(5);
+    let stone = Hull::new((0..30).map(|_| {
+        let place = random.vector::<f64>();
+        (place * (1.5 / place.length())).to_array()
+    }));
+    let pyramid = [[0.0; 3], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [3.0, 3.0, 0.0], [1.0, 1.0, 2.0]];
+    let turned = |shape: Shape<f64>| shape.turned([3.0, -2.0, 4.0], 0.7);
+    vec![
+        ("spool", vec![Revolved::solid(PLACE, TILTED, spool).into()]),
+        ("bottle-inside", vec![Revolved::container(PLACE, TILTED, bottle).into()]),
+        ("ring", vec![Revolved::solid(PLACE, TILTED, ring).into()]),
+        ("stone", vec![stone.into()]),
+        ("pyramid", vec![turned(Hull::new(pyramid).into())]),
+        ("endless-cone", vec![Cone::endless_solid(PLACE, TILTED, 0.5).into()]),
+        ("turned-box", vec![turned(Cuboid::solid([-1.0; 3], [1.0, 2.0, 0.5]).into())]),
+    ]
+}
+
+/// All of them.
+fn all_parts() -> impl Iterator<Item = (&'static str, Vec<Shape<f64>>)> {
+    parts().into_iter().chain(other_parts()).chain(further_parts())
 }
 
 /// A part's features in a precision.
@@ -160,13 +227,17 @@ const SIZE: f64 = 4.0;
 
 /// The worst error of all shots as a gap, in ε of the lengths.
 fn worst_of_shots<T: Real>(is_fit: impl Fn(&Shot) -> bool) -> (usize, f64) {
-    let parts = parts();
+    let parts: Vec<_> = all_parts().collect();
+    let shots = shots();
     let epsilon = T::EPSILON.to_f64();
     let (mut count, mut worst) = (0, 0.0_f64);
     let mut wrong = Vec::new();
-    for shot in shots().iter().filter(|shot| is_fit(shot)) {
+    let pairs = shots.iter().filter(|shot| is_fit(shot)).flat_map(|shot| {
+        let own = parts.iter().filter(|(name, _)| *name == shot.part);
+        own.map(move |(_, shapes)| (shot, shapes))
+    });
+    for (shot, shapes) in pairs {
         count += 1;
-        let (_, shapes) = parts.iter().find(|(name, _)| *name == shot.part).unwrap();
         let features = features::<T>(shapes);
         let (center, radius) = (vector(shot.flight.center), T::from_f64(shot.flight.radius));
         let is_left = |k: usize| {
@@ -220,7 +291,7 @@ fn contacts_are_the_exact_ones() {
     let double = worst_of_shots::<f64>(|_| true);
     let single = worst_of_shots::<f32>(|shot| shot.is_short);
     println!("(shots, worst error in ε): f64 {double:?}, f32 {single:?}");
-    assert!(double.0 > 500 && single.0 > 300);
+    assert!(double.0 > 750 && single.0 > 450);
 }
 
 #[cfg(feature = "study")]
@@ -380,7 +451,7 @@ fn audit<T: Real>(flights: usize) -> Audit {
     let epsilon = T::EPSILON.to_f64();
     let mut random = Random(17);
     let mut wrong = Vec::new();
-    for (part, shapes) in parts() {
+    for (part, shapes) in all_parts() {
         let (exact, rounded) = (features::<f64>(&shapes), features::<T>(&shapes));
         for kind in KINDS {
             for _ in 0..flights {
@@ -443,9 +514,9 @@ fn wild_inputs<T: Real>() {
         let vector = |random: &mut Random| [(); 3].map(|()| random.magnitude::<T>(-6, 6));
         let (a, b, c) = (vector(&mut random), vector(&mut random), vector(&mut random));
         let [r, s, h] = [(); 3].map(|()| random.magnitude::<T>(-6, 6).abs());
-        let shapes: [Shape<T>; 14] = [
+        let shapes: [Shape<T>; 19] = [
             Triangle::new(a, b, c).into(),
-            Cuboid::solid(a, core::array::from_fn(|k| a[k] + r)).turned(b).into(),
+            Shape::from(Cuboid::solid(a, core::array::from_fn(|k| a[k] + r))).turned(b, c[0]),
             Capsule::solid(a, b, r).into(),
             Capsule::container(a, b, r).into(),
             Cylinder::solid(a, b, r, None).into(),
@@ -458,6 +529,11 @@ fn wild_inputs<T: Real>() {
             Tube::new(a, b, h, [r, s]).into(),
             Torus::solid(a, b, r + s, s).into(),
             Torus::container(a, b, r + s, s).into(),
+            Hull::new([a, b, c, [r, s, h], [h, r, s]]).into(),
+            Revolved::thin(a, b, [[r, s], [s, h], [h, r]]).into(),
+            Revolved::solid(a, b, [[r, s], [s, h], [h, r]]).into(),
+            Revolved::container(a, b, [[T::ZERO, s], [s, h], [h, r]]).into(),
+            Cone::endless_solid(a, b, r).into(),
         ];
         let (center, velocity) = (vector(&mut random).into(), vector(&mut random).into());
         let (field, radius) = (vector(&mut random).into(), random.magnitude::<T>(-6, 6).abs());

@@ -106,15 +106,19 @@ gravity = [0.0, 0.0, -1.0]
 stepped = { dt = 0.02 }
 surroundings = [
   { shape = "cylinder", center = [0, 0, 0], axis = [0, 0, 1], radius = 6, height = 12, inside = true },
-  { shape = "box", lower = [-4, -1, -4], upper = [-2, 1, -3], rotation = [0.3, -0.2, 0.4] },
-  { shape = "triangle", a = [2, 2, 0], b = [4, 1, 1], c = [2, 4, -1] },
+  { shape = "box", lower = [-1, -1, -0.5], upper = [1, 1, 0.5], rotation = { axis = [3, -2, 4], angle = 0.54 }, translation = [-3, 0, -3.5] },
+  { shape = "triangle", vertices = [[2, 2, 0], [4, 1, 1], [2, 4, -1]] },
   { shape = "capsule", a = [0, -4, 2], b = [1, -2, 3], radius = 0.4 },
   { shape = "cylinder", center = [3, -2, -4], axis = [1, 0, 2], radius = 0.8, height = 1.5 },
   { shape = "cone", base = [0, 3, -4], axis = [0, 1, 3], height = 2, radius = 1, top_radius = 0.2 },
   { shape = "disc", center = [-3, 0, 3], axis = [1, 2, 2], radius = 1.5 },
-  { shape = "disc", center = [-3, -2, 0], axis = [1, 0, 2], radius = 1.5, hole_radius = 0.6 },
+  { shape = "annulus", center = [-3, -2, 0], axis = [1, 0, 2], outer = 1.5, inner = 0.6 },
   { shape = "tube", base = [0, 0, -1], axis = [0, 0, 1], height = 2, radius = 0.6, top_radius = 2 },
-  { shape = "torus", center = [1, 2, 4], axis = [2, 1, 2], radius = 1, tube_radius = 0.3 },
+  { shape = "torus", center = [1, 2, 4], axis = [2, 1, 2], major = 1, minor = 0.3 },
+  { shape = "hull", vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], translation = [2, -4, 1] },
+  { shape = "revolved", center = [-2, 3, 3], axis = [2, 1, 2], closed = true, scale = 0.5, translation = [-1, 1, 1],
+    profile = [[0, -2], [2, -2], [0.75, -0.5], [0.75, 0.5], [2, 2], [0, 1.5]] },
+  { shape = "revolved", center = [0, 0, -4.5], axis = [0, 0, 1], profile = [[3, 0], [3, 1], [4, 2]] },
 ]
 [[spheres]]
 count = 60
@@ -161,11 +165,13 @@ fn run<T: Compiled>(text: &str, engine: EngineKind) -> (f64, u64, f64) {
 #[test]
 fn nothing_passes_through_any_shape() {
     let containers = [
-        "shape = \"box\", lower = [-2, -2, -2], upper = [2, 2, 2], rotation = [0.5, 0.2, 0.1]",
+        "shape = \"box\", lower = [-2, -2, -2], upper = [2, 2, 2], rotation = { axis = [5, 2, 1], angle = 0.55 }",
         "shape = \"capsule\", a = [-1, 0, 0], b = [1, 0.5, 0], radius = 2",
         "shape = \"cylinder\", center = [0, 0, 0], axis = [1, 2, 2], radius = 2, height = 4",
         "shape = \"cone\", base = [0, 0, 3], axis = [0, 0.2, -1], height = 6, radius = 4",
-        "shape = \"torus\", center = [0, 0, 0], axis = [1, 2, 2], radius = 3, tube_radius = 1",
+        "shape = \"torus\", center = [0, 0, 0], axis = [1, 2, 2], major = 3, minor = 1",
+        "shape = \"revolved\", center = [0, 0, 0], axis = [1, 2, 2], closed = true, \
+         profile = [[0, -3], [2.5, -3], [2.5, 0.5], [1, 2], [1, 3], [0, 3.5]]",
     ];
     let texts = core::iter::once(ALL.to_owned()).chain(containers.map(container));
     for text in texts {
@@ -184,12 +190,14 @@ fn nothing_passes_through_any_shape() {
 #[test]
 fn lattices_fit_into_every_container() {
     for shape in [
-        "shape = \"box\", lower = [-2, -2, -2], upper = [2, 2, 2], rotation = [0.5, 0.2, 0.1]",
+        "shape = \"box\", lower = [-2, -2, -2], upper = [2, 2, 2], rotation = { axis = [5, 2, 1], angle = 0.55 }",
         "shape = \"capsule\", a = [-1, 0, 0], b = [1, 0.5, 0], radius = 2",
         "shape = \"cylinder\", center = [0, 0, 0], axis = [1, 2, 2], radius = 2, height = 4",
         "shape = \"cylinder\", center = [0, 0, 0], axis = [0, 0, 1], radius = 2, height = 4",
         "shape = \"cone\", base = [0, 0, 3], axis = [0, 0, -1], height = 6, radius = 4",
-        "shape = \"torus\", center = [0, 0, 0], axis = [1, 2, 2], radius = 3, tube_radius = 1",
+        "shape = \"torus\", center = [0, 0, 0], axis = [1, 2, 2], major = 3, minor = 1",
+        "shape = \"revolved\", center = [0, 0, 0], axis = [1, 2, 2], closed = true, \
+         profile = [[0, -3], [2.5, -3], [2.5, 0.5], [1, 2], [1, 3], [0, 3.5]]",
     ] {
         let text = container(shape).replace("\"random\"", "\"cubic\"").replace("= 0.2", "= 0.02");
         let scene = SceneFile::parse("vessel.toml", &text).unwrap().build::<f64>();

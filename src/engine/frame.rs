@@ -17,6 +17,7 @@ use crate::compensated::two_sum;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::space::PeriodicBox;
+use crate::surroundings::Placement;
 use crate::vec3::Vec3;
 
 /// A scene is far away along an axis where its coordinates are all greater than this
@@ -76,8 +77,9 @@ impl<T: Real> Frame<T> {
             lower: moved(lower),
             upper: moved(upper),
         });
+        let placement = Placement::NONE.scaled(length).moved(-(self.origin * length));
         for shape in &mut scene.surroundings {
-            *shape = shape.in_frame(self.origin, length);
+            *shape = shape.placed(&placement);
         }
         scene.stepped.dt = scene.stepped.dt.map(|dt| dt * power(-self.time));
         let origin = self.origin.to_array();

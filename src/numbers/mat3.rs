@@ -3,6 +3,7 @@
 use core::ops::{Mul, Sub};
 
 use crate::lane::Lane;
+use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// A matrix by its columns. An orientation takes body axes to world axes: its
@@ -115,6 +116,20 @@ impl<L: Lane> Mat3<L> {
         Self {
             columns: core::array::from_fn(|k| Vec3::select(mask, yes.columns[k], no.columns[k])),
         }
+    }
+}
+
+impl<T: Real> Mat3<T> {
+    /// The matrix in another precision: every element becomes the nearest.
+    ///
+    /// ```
+    /// use carom::mat3::Mat3;
+    /// assert_eq!(Mat3::<f64>::IDENTITY.cast::<f32>(), Mat3::IDENTITY);
+    /// ```
+    #[must_use]
+    pub fn cast<B: Real>(self) -> Mat3<B> {
+        let [a, b, c] = self.columns;
+        Mat3::from_columns(a.cast(), b.cast(), c.cast())
     }
 }
 

@@ -111,7 +111,7 @@ pub(super) fn bodies<T: Real>(
         wrap(space, &mut bodies).map_err(of_entry)?;
     }
     if asked.encounters != Encounters::None {
-        let shapes: Vec<_> = asked.surroundings.iter().map(|given| given.rounded).collect();
+        let shapes: Vec<_> = asked.surroundings.iter().map(|given| given.rounded.clone()).collect();
         let misplaced = surroundings(&shapes, &bodies, &allowance);
         let first = misplaced.as_ref().map_or(shapes.len(), |misplaced| misplaced.0 + 1);
         if let Some(space) = &periodic {

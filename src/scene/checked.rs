@@ -97,7 +97,7 @@ impl<T: Real> Scene<T> {
             periodic: self
                 .periodic
                 .map_or(Periodicity::Open, |space| Periodicity::Box(GivenBox::rounded(space))),
-            surroundings: self.surroundings.iter().copied().map(GivenShape::rounded).collect(),
+            surroundings: self.surroundings.iter().cloned().map(GivenShape::rounded).collect(),
             stepped: self.stepped,
             entries: vec![Entry::Ready(Box::new(bodies))],
             ..Description::new(self.name.clone(), Origin::code(&self.name))

@@ -110,7 +110,7 @@ impl RawScene {
             dilate(&mut bounds.upper);
         }
         for raw in &mut self.surroundings {
-            raw.values.dilate(factor);
+            raw.dilate(factor);
         }
         for spheres in &mut self.spheres {
             dilate(&mut spheres.position);

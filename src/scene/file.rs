@@ -11,17 +11,18 @@ use super::check;
 use super::checked::Scene;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
+use super::fixed;
 use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
-use super::raw::{KEYS, Number, RawPeriodic, RawScene, RawSpheres, RawSurroundings, Vector, Whole};
+use super::raw::{Number, RawPeriodic, RawScene, RawSpheres, Vector, Whole};
 use super::reading;
 use super::settings::{EngineKind, Precision, SteppedSettings};
 use super::spheres::{Arrangement, Make, Sphere, Spheres, Spread};
 use super::state_file::StateFile;
 use crate::real::Real;
 use crate::space::PeriodicBox;
-use crate::surroundings::{Mistake, NO_VECTOR, SHAPE_KINDS, Shape, ShapeKind};
+use crate::surroundings::{Mistake, NO_VECTOR};
 use crate::vec3::Vec3;
 
 /// A scene file, read but not yet built: the precision is still to choose.
@@ -52,7 +53,9 @@ use crate::vec3::Vec3;
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape` and its keys: `"plane"`, `"box"`, `"sphere"`,
 /// `"triangle"`, `"capsule"`, `"cylinder"`, `"cone"`, `"disc"`, `"tube"` and `"torus"`, each
-/// of which has a type in [`surroundings`](crate::surroundings) that tells its keys.
+/// of which has a type in [`surroundings`](crate::surroundings) that tells its keys. All may
+/// have a `scale`, a `rotation` with `axis`, `angle` in rad and `center`, and a
+/// `translation`, which take effect in this order.
 ///
 /// | `[[spheres]]` | Default | |
 /// |---|---|---|
@@ -291,7 +294,7 @@ impl SceneFile {
             }
         };
         for (index, raw) in self.raw.surroundings.iter().enumerate() {
-            asked.surroundings.push(GivenShape::exact(shape(&origin, index, raw)?));
+            asked.surroundings.push(GivenShape::exact(fixed::shape(&origin, index, raw)?));
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
             let entry = match &raw.file {
@@ -397,29 +400,6 @@ fn required(
     value
         .map(|Vector(vector)| vector)
         .ok_or_else(|| origin.error_in(entry, Mistake::missing(key, NO_VECTOR)))
-}
-
-/// One entry of the surroundings, with the keys of its shape and no others.
-fn shape(origin: &Origin, index: usize, raw: &RawSurroundings) -> Result<Shape<f64>, SceneError> {
-    let entry = format!("surroundings[{index}]");
-    let Some(ShapeKind { name, keys, read }) = raw.shape else {
-        let problem = Problem::missing(format!("it is {}", shapes()));
-        return Err(origin.error_in(&entry, ("shape", problem)));
-    };
-    if let Some(key) = KEYS.iter().find(|key| raw.values.has(**key) && !keys.contains(key)) {
-        let keys: Vec<_> = keys.iter().map(|key| key.name).collect();
-        let reason = format!("a {name} has {}", keys.join(", "));
-        let problem = Problem::conflict(format!("shape = \"{name}\""), reason);
-        return Err(origin.error_in(&entry, (key.name, problem)));
-    }
-    read(&raw.values).map_err(|mistake| origin.error_in(&entry, mistake))
-}
-
-/// The names of all shapes, with an "or" before the last.
-fn shapes() -> String {
-    let names: Vec<_> = SHAPE_KINDS.iter().map(|kind| format!("\"{}\"", kind.name)).collect();
-    let names = names.join(", ");
-    names.rsplit_once(", ").map_or(names.clone(), |(first, last)| format!("{first} or {last}"))
 }
 
 /// One entry of spheres, with the keys of one or of many.

@@ -109,7 +109,7 @@ pub(super) fn bodies<T: Real>(
     }
     let fixed: Vec<_> = match asked.encounters {
         Encounters::None => Vec::new(),
-        _ => asked.surroundings.iter().map(|given| given.exact).collect(),
+        _ => asked.surroundings.iter().map(|given| given.exact.clone()).collect(),
     };
     let fixed = Obstacles::new(&fixed);
     for (index, ((entry, range), layout)) in entries() {

@@ -8,7 +8,7 @@ use core::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
 
-pub(super) use surroundings::{KEYS, RawSurroundings};
+pub(super) use surroundings::{KEYS, RawRotation, RawSurroundings};
 
 use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Precision, Summation};
 use super::spheres::{Arrangement, Spread};
@@ -141,6 +141,27 @@ pub(super) struct Whole(pub(super) u64);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vector(pub(super) [f64; 3]);
 
+/// Two numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair(pub(super) [f64; 2]);
+
+/// The numbers of an array, which has as many.
+fn numbers<'de, const N: usize, A: SeqAccess<'de>>(
+    mut elements: A,
+    expected: &dyn serde::de::Expected,
+    count: &str,
+) -> Result<[f64; N], A::Error> {
+    let mut numbers = [0.0; N];
+    for (index, number) in numbers.iter_mut().enumerate() {
+        let element: Option<Number> = elements.next_element()?;
+        *number = element.ok_or_else(|| A::Error::invalid_length(index, expected))?.0;
+    }
+    match elements.next_element::<serde::de::IgnoredAny>()? {
+        None => Ok(numbers),
+        Some(_) => Err(A::Error::custom(format!("too long an array, expected {count} numbers"))),
+    }
+}
+
 /// Takes what a value may be, and names it in errors.
 macro_rules! deserialize {
     ($type:ident, $method:ident, $expecting:literal, { $($visit:item)* }) => {
@@ -194,16 +215,14 @@ deserialize!(Whole, deserialize_any, "a whole number from 0 up", {
 });
 
 deserialize!(Vector, deserialize_any, "three numbers, as in [0.0, 0.0, 1.0]", {
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Vector, A::Error> {
-        let mut vector = [0.0; 3];
-        for (index, component) in vector.iter_mut().enumerate() {
-            let element: Option<Number> = elements.next_element()?;
-            *component = element.ok_or_else(|| A::Error::invalid_length(index, &self))?.0;
-        }
-        match elements.next_element::<serde::de::IgnoredAny>()? {
-            None => Ok(Vector(vector)),
-            Some(_) => Err(A::Error::custom("too long an array, expected three numbers")),
-        }
+    fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<Vector, A::Error> {
+        numbers(elements, &self, "three").map(Vector)
+    }
+});
+
+deserialize!(Pair, deserialize_any, "two numbers, [distance from the axis, height]", {
+    fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<Pair, A::Error> {
+        numbers(elements, &self, "two").map(Pair)
     }
 });
 
@@ -220,16 +239,9 @@ deserialize!(Spread, deserialize_any, "a number, or two, [least, greatest], to s
         Ok(Spread::Same(value as f64))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Spread, A::Error> {
-        let mut bound = |index| -> Result<f64, A::Error> {
-            let element: Option<Number> = elements.next_element()?;
-            Ok(element.ok_or_else(|| A::Error::invalid_length(index, &self))?.0)
-        };
-        let (least, greatest) = (bound(0)?, bound(1)?);
-        match elements.next_element::<serde::de::IgnoredAny>()? {
-            None => Ok(Spread::Uniform { least, greatest }),
-            Some(_) => Err(A::Error::custom("too long an array, expected two numbers")),
-        }
+    fn visit_seq<A: SeqAccess<'de>>(self, elements: A) -> Result<Spread, A::Error> {
+        let [least, greatest] = numbers(elements, &self, "two")?;
+        Ok(Spread::Uniform { least, greatest })
     }
 });
 

@@ -1,5 +1,6 @@
 //! Axis: a line with a point on it, and where places are about it.
 
+use super::placement::Placement;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -33,9 +34,9 @@ impl<T: Real> Axis<T> {
         Self { center: center.into(), direction: Vec3::new(x / length, y / length, z / length) }
     }
 
-    /// The same line seen from an origin, in a unit of length.
-    pub(super) fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        Self { center: (self.center - origin) * scale, direction: self.direction }
+    /// The same line, scaled, turned and moved.
+    pub(super) fn placed(&self, at: &Placement<T>) -> Self {
+        Self { center: at.point(self.center), direction: at.unit(self.direction) }
     }
 
     /// The same line with another point of it.

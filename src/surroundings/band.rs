@@ -12,17 +12,44 @@ use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// What a sphere touches of a [`Disc`](super::Disc) or a [`Tube`](super::Tube), from both
-/// sides and at the rims; or the wall of a hollow [`Cone`](super::Cone), from inside.
+/// sides and at the rims; or the wall of a [`Cone`](super::Cone), from inside or outside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band<T> {
     pub(super) axis: Axis<T>,
     /// Out or up.
     pub(super) slant: Slant<T>,
-    /// Whether it is the wall of a container: solid on its right-hand side, without rims.
-    pub(super) is_lining: bool,
+    pub(super) sides: Sides,
+    /// Whether it has a rim at its start and its end.
+    pub(super) rims: [bool; 2],
+}
+
+/// The sides from which it is touched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sides {
+    /// It is thin.
+    Both,
+    /// It is solid on its right-hand side: the wall of a container.
+    Inner,
+    /// It is solid on its left-hand side.
+    Outer,
 }
 
 impl<T: Real> Band<T> {
+    /// Thin, with a rim at every end but the axis.
+    pub(super) fn thin(axis: Axis<T>, slant: Slant<T>) -> Self {
+        Self { axis, slant, sides: Sides::Both, rims: [true; 2] }
+    }
+
+    /// The wall of a container.
+    pub(super) fn lining(axis: Axis<T>, slant: Slant<T>) -> Self {
+        Self { axis, slant, sides: Sides::Inner, rims: [false; 2] }
+    }
+
+    /// A solid cone that goes on without end from its tip.
+    pub(super) fn endless(axis: Axis<T>, slant: Slant<T>) -> Self {
+        Self { axis, slant, sides: Sides::Outer, rims: [true, false] }
+    }
+
     fn is_flat(&self) -> bool {
         self.slant.along[1] == T::ZERO
     }
@@ -33,12 +60,14 @@ impl<T: Real> Band<T> {
         let beside = self.slant.beside(place.distance, place.height);
         let [out, up] = beside.normal;
         let normal = place.outward * out + Vec3::splat(self.axis.direction) * up;
-        if !self.is_lining {
-            return (beside.distance, normal);
-        }
+        let is_solid = match self.sides {
+            Sides::Both => return (beside.distance, normal),
+            Sides::Inner => beside.is_right,
+            Sides::Outer => !beside.is_right,
+        };
         (
-            L::select(beside.is_right, -beside.distance, beside.distance),
-            Vec3::select(beside.is_right, -normal, normal),
+            L::select(is_solid, -beside.distance, beside.distance),
+            Vec3::select(is_solid, -normal, normal),
         )
     }
 }
@@ -55,16 +84,17 @@ impl<T: Real> Obstacle<T> for Band<T> {
     }
 
     fn bounds(&self) -> Option<[Vec3<T>; 2]> {
-        (!self.is_lining).then(|| self.slant.bounds(&self.axis))
+        (self.sides == Sides::Both).then(|| self.slant.bounds(&self.axis))
     }
 
     fn farthest(&self) -> f64 {
-        let corners = self.slant.bounds(&self.axis).map(|corner| corner.cast::<f64>());
-        corners.into_iter().map(greatest_component).fold(0.0, f64::max)
+        let ends = [self.slant.start, self.slant.end].into_iter().filter(|end| end[1].is_finite());
+        let corners = ends.flat_map(|[distance, height]| self.axis.around(height, distance));
+        corners.map(|corner| greatest_component(corner.cast::<f64>())).fold(0.0, f64::max)
     }
 
     fn is_hollow(&self) -> bool {
-        !self.is_flat()
+        !self.is_flat() && self.sides != Sides::Outer
     }
 
     fn hop(&self, flight: &FreeFlight<T>, wait: T) -> T {
@@ -73,32 +103,33 @@ impl<T: Real> Obstacle<T> for Band<T> {
 }
 
 impl<T: Real> Pieced<T> for Band<T> {
-    /// A disc without a hole.
+    /// A disc without a hole, or a solid cone.
     fn is_convex(&self) -> bool {
-        self.is_flat() && self.slant.start[0] == T::ZERO
+        self.is_flat() && self.slant.start[0] == T::ZERO || self.sides == Sides::Outer
     }
 
     fn offset(&self, place: Vec3<T>) -> Vec3<T> {
         let (distance, normal) = self.nearest(place);
-        normal * distance
+        normal * distance.greater(T::ZERO)
     }
 
     fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
-        let Self { axis, slant, is_lining } = *self;
+        let Self { axis, slant, sides, rims } = *self;
         if self.is_flat() {
             let point = axis.point(slant.start[1]);
             for normal in [axis.direction, -axis.direction] {
                 visit(Piece::Face { point, normal });
             }
         } else {
-            visit(Piece::Wall { axis, slant, is_hollow: true });
-            if !is_lining {
-                visit(Piece::Wall { axis, slant, is_hollow: false });
+            for (is_hollow, other) in [(true, Sides::Outer), (false, Sides::Inner)] {
+                if sides != other {
+                    visit(Piece::Wall { axis, slant, is_hollow });
+                }
             }
         }
         let is_whole = |end: [T; 2]| self.is_flat() && end[0] == T::ZERO;
-        for end in [slant.start, slant.end] {
-            if !is_lining && !is_whole(end) {
+        for (end, is_rim) in [slant.start, slant.end].into_iter().zip(rims) {
+            if is_rim && !is_whole(end) {
                 visit(Piece::at_end(axis, end));
             }
         }

@@ -5,6 +5,7 @@ use super::entry::{INSIDE, Key, Meaning, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, point, positive};
 use super::piece::Piece;
 use super::pieced::Pieced;
+use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{FreeFlight, greatest_component};
@@ -174,9 +175,9 @@ impl<T: Real> Solid<T> for Capsule<T> {
         self.around().into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        let ends = self.ends.map(|end| (end - origin) * scale);
-        Self { ends, radius: self.radius * scale, inside: self.inside }
+    fn placed(&self, at: &Placement<T>) -> Self {
+        let ends = self.ends.map(|end| at.point(end));
+        Self { ends, radius: at.length(self.radius), inside: self.inside }
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

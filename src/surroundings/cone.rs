@@ -1,8 +1,9 @@
 //! Cone: a cone or a frustum, solid or hollow.
 
 use super::axis::{Axis, inscribed, joined};
-use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry, TOP_RADIUS};
-use super::mistake::Mistake;
+use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, Meaning, RADIUS, ShapeEntry, TOP_RADIUS};
+use super::mistake::{Mistake, direction, point, positive};
+use super::placement::Placement;
 use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature, Frustum, Plane};
@@ -11,9 +12,11 @@ use crate::vec3::Vec3;
 
 /// A cone fixed in space, or, with a radius at its top, a frustum.
 ///
-/// In a scene file: `shape = "cone"` with the middle of its `base`, the `axis` from there,
-/// `height`, the `radius` of the base, `top_radius`, 0 by default, and `inside`;
-/// `inside = true` makes a container, closed at both ends.
+/// In a scene file: `shape = "cone"` with its `apex`, the `axis` from there into it, and
+/// `slope`, its radius over the height from there, which goes on without end; or with the
+/// middle of its `base`, the `axis` from there, `height`, the `radius` of the base and
+/// `top_radius`, 0 by default. `inside = true` makes a container, closed at both ends if it
+/// has any.
 ///
 /// ```
 /// use carom::surroundings::{Cone, Shape};
@@ -26,12 +29,19 @@ use crate::vec3::Vec3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cone<T> {
-    /// From the middle of the base.
+    /// From the middle of the base, or from the apex if it has no end.
     axis: Axis<T>,
-    height: T,
-    /// Of the base and the top.
-    radii: [T; 2],
+    extent: Extent<T>,
     inside: bool,
+}
+
+/// How far it reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Extent<T> {
+    /// The height, and the radii of the base and the top, length.
+    Ended(T, [T; 2]),
+    /// Radius over height.
+    Endless(T),
 }
 
 impl<T: Real> Cone<T> {
@@ -46,7 +56,7 @@ impl<T: Real> Cone<T> {
     /// ```
     #[must_use]
     pub fn solid(base: [T; 3], axis: [T; 3], height: T, radii: [T; 2]) -> Self {
-        Self { axis: Axis::new(base, axis), height, radii, inside: false }
+        Self { axis: Axis::new(base, axis), extent: Extent::Ended(height, radii), inside: false }
     }
 
     /// A container that bodies are inside of, of the same lengths.
@@ -62,44 +72,103 @@ impl<T: Real> Cone<T> {
         Self { inside: true, ..Self::solid(base, axis, height, radii) }
     }
 
-    fn around(&self) -> [Vec3<T>; 2] {
-        let [base, top] = self.radii;
-        joined(self.axis.around(T::ZERO, base), self.axis.around(self.height, top))
+    /// A solid cone that goes on without end: its apex, length, the axis from there into it,
+    /// of any length but 0, and its slope, radius over height.
+    ///
+    /// ```
+    /// use carom::surroundings::{Cone, Shape};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let cone = Cone::endless_solid([0.0; 3], [0.0, 0.0, -1.0], 0.75);
+    /// let [cone] = &Shape::from(cone).features()[..] else { return };
+    /// assert_eq!(cone.clearance(Vec3::new(8.0, 0.0, -4.0), 0.5).gap, 3.5);
+    /// assert_eq!(cone.clearance(Vec3::new(0.0, 0.0, 3.0), 0.5).gap, 2.5);
+    /// ```
+    #[must_use]
+    pub fn endless_solid(apex: [T; 3], axis: [T; 3], slope: T) -> Self {
+        Self { axis: Axis::new(apex, axis), extent: Extent::Endless(slope), inside: false }
+    }
+
+    /// A container that goes on without end, as [`endless_solid`](Self::endless_solid) has it.
+    ///
+    /// ```
+    /// use carom::surroundings::{Cone, Shape};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let cone = Cone::endless_container([0.0; 3], [0.0, 0.0, 1.0], 0.75);
+    /// let [wall] = &Shape::from(cone).features()[..] else { return };
+    /// assert!((wall.clearance(Vec3::new(0.0, 0.0, 5.0), 0.5).gap - 2.5).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn endless_container(apex: [T; 3], axis: [T; 3], slope: T) -> Self {
+        Self { inside: true, ..Self::endless_solid(apex, axis, slope) }
+    }
+
+    /// The corners of the box around it, if it has an end.
+    fn around(&self) -> Option<[Vec3<T>; 2]> {
+        let Extent::Ended(height, [base, top]) = self.extent else { return None };
+        Some(joined(self.axis.around(T::ZERO, base), self.axis.around(height, top)))
     }
 }
+
+const APEX: Key = Key::new("apex", Meaning::Point);
+const SLOPE: Key = Key::new("slope", Meaning::Ratio);
 
 impl<T: Real> Solid<T> for Cone<T> {
     type In<B: Real> = Cone<B>;
 
     const NAME: &'static str = "cone";
-    const KEYS: &'static [Key] = &[BASE, AXIS, HEIGHT, RADIUS, TOP_RADIUS, INSIDE];
+    const KEYS: &'static [Key] = &[APEX, SLOPE, BASE, AXIS, HEIGHT, RADIUS, TOP_RADIUS, INSIDE];
 
     fn read(entry: &ShapeEntry) -> Result<Cone<f64>, Mistake> {
+        let inside = entry.flag(INSIDE);
+        if entry.has(APEX) || entry.has(SLOPE) {
+            let ended = [BASE, HEIGHT, RADIUS, TOP_RADIUS];
+            if let Some(key) = ended.into_iter().find(|key| entry.has(*key)) {
+                let wanted = "a cone has an apex and a slope, or a base, a height and a radius";
+                return Err(Mistake::described(key.name, "there beside apex or slope", wanted));
+            }
+            let axis = Axis::new(entry.vector(APEX)?, entry.vector(AXIS)?);
+            let slope =
+                entry.number(SLOPE, "a cone without an end has a slope, radius over height")?;
+            return Ok(Cone { axis, extent: Extent::Endless(slope), inside });
+        }
         let radius = entry.number(RADIUS, "a cone has the radius of its base")?;
-        Ok(Cone {
-            axis: Axis::new(entry.vector(BASE)?, entry.vector(AXIS)?),
-            height: entry.number(HEIGHT, "a cone has a height greater than 0")?,
-            radii: [radius, entry.optional(TOP_RADIUS).unwrap_or(0.0)],
-            inside: entry.flag(INSIDE),
-        })
+        let radii = [radius, entry.optional(TOP_RADIUS).unwrap_or(0.0)];
+        let height = entry.number(HEIGHT, "a cone has a height greater than 0")?;
+        let axis = Axis::new(entry.vector(BASE)?, entry.vector(AXIS)?);
+        Ok(Cone { axis, extent: Extent::Ended(height, radii), inside })
     }
 
     fn check(&self) -> Result<(), Mistake> {
-        check_slanted(&self.axis, self.height, self.radii)
+        match self.extent {
+            Extent::Ended(height, radii) => check_slanted(&self.axis, height, radii),
+            Extent::Endless(slope) => {
+                point(APEX.name, self.axis.center)?;
+                direction(AXIS.name, self.axis.direction)?;
+                positive::<T>(SLOPE.name, slope.to_f64(), "a slope")
+            }
+        }
     }
 
     fn cast<B: Real>(&self) -> Cone<B> {
-        Cone {
-            axis: self.axis.cast(),
-            height: self.height.cast(),
-            radii: self.radii.map(Real::cast),
-            inside: self.inside,
-        }
+        let extent = match self.extent {
+            Extent::Ended(height, radii) => Extent::Ended(height.cast(), radii.map(Real::cast)),
+            Extent::Endless(slope) => Extent::Endless(slope.cast()),
+        };
+        Cone { axis: self.axis.cast(), extent, inside: self.inside }
     }
 
     /// A container is its wall and its ends.
     fn features(&self) -> Vec<Feature<T>> {
-        let Self { axis, height, radii: [base, top], inside } = *self;
+        let Self { axis, extent, inside } = *self;
+        let (height, [base, top]) = match extent {
+            Extent::Ended(height, radii) => (height, radii),
+            Extent::Endless(slope) => {
+                let band = if inside { Band::lining } else { Band::endless };
+                return vec![band(axis, Slant::endless(slope)).into()];
+            }
+        };
         if !inside {
             return vec![Frustum::new(axis, height, [base, top]).into()];
         }
@@ -110,33 +179,38 @@ impl<T: Real> Solid<T> for Cone<T> {
             (top, Plane { point: axis.point(height), normal: -normal }),
         ];
         let ends = ends.into_iter().filter(|(radius, _)| *radius > T::ZERO);
-        let wall = Feature::from(Band { axis, slant, is_lining: true });
+        let wall = Feature::from(Band::lining(axis, slant));
         core::iter::once(wall).chain(ends.map(|(_, plane)| plane.into())).collect()
     }
 
     fn points(&self) -> Vec<Vec3<T>> {
-        self.around().into()
+        self.around().unwrap_or([self.axis.center; 2]).into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        Self {
-            axis: self.axis.in_frame(origin, scale),
-            height: self.height * scale,
-            radii: self.radii.map(|radius| radius * scale),
-            inside: self.inside,
-        }
+    fn placed(&self, at: &Placement<T>) -> Self {
+        let extent = match self.extent {
+            Extent::Ended(height, radii) => {
+                Extent::Ended(at.length(height), radii.map(|radius| at.length(radius)))
+            }
+            endless => endless,
+        };
+        Self { axis: self.axis.placed(at), extent, inside: self.inside }
+    }
+
+    fn is_container(&self) -> bool {
+        self.inside
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {
-        self.inside.then(|| self.around())
+        self.around().filter(|_| self.inside)
     }
 
     /// A box in a cylinder through the wider half.
     fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
-        let [base, top] = self.radii;
+        let Extent::Ended(height, [base, top]) = self.extent else { return None };
         let radius = (base + top) * T::ratio(1, 2);
         let share = if base < top { T::ratio(3, 4) } else { T::ratio(1, 4) };
-        let middle = self.axis.moved(self.height * share);
-        self.inside.then(|| inscribed(&middle, radius, self.height * T::ratio(1, 4)))
+        let middle = self.axis.moved(height * share);
+        self.inside.then(|| inscribed(&middle, radius, height * T::ratio(1, 4)))
     }
 }

@@ -2,23 +2,22 @@
 
 use super::axis::Axis;
 use super::entry::{INSIDE, Key, Meaning, ShapeEntry};
-use super::mistake::{Mistake, corners, finite};
+use super::mistake::{Mistake, corners};
 use super::piece::Piece;
 use super::pieced::Pieced;
+use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature, Plane};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::{Lane, Mask};
 use crate::mat3::Mat3;
-use crate::motion::rotation::reference_rotation;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
 /// A box fixed in space.
 ///
-/// In a scene file: `shape = "box"` with `lower`, `upper`, `rotation` and `inside`;
-/// `inside = true` makes a container. Its sides are along the axes, but for a
-/// rotation about its middle.
+/// In a scene file: `shape = "box"` with `lower`, `upper` and `inside`; `inside = true` makes
+/// a container. Its sides are along the axes, unless it is [turned](super::Shape::turned).
 ///
 /// ```
 /// use carom::surroundings::{Cuboid, Feature};
@@ -35,7 +34,7 @@ pub struct Cuboid<T> {
     /// The corner with the greatest coordinates, length; before the rotation.
     pub upper: Vec3<T>,
     /// How it is turned about its middle; `None`: not at all.
-    pub rotation: Option<Mat3<T>>,
+    rotation: Option<Mat3<T>>,
     /// Whether bodies are inside of it: a container.
     pub inside: bool,
 }
@@ -63,23 +62,6 @@ impl<T: Real> Cuboid<T> {
     #[must_use]
     pub fn container(lower: [T; 3], upper: [T; 3]) -> Self {
         Self { lower: lower.into(), upper: upper.into(), rotation: None, inside: true }
-    }
-
-    /// The same box turned about its middle by `|rotation|` rad about `rotation`.
-    ///
-    /// ```
-    /// use carom::surroundings::{Cuboid, Feature};
-    /// use carom::vec3::Vec3;
-    ///
-    /// let quarter = [0.0, 0.0, core::f64::consts::FRAC_PI_4];
-    /// let cube = Feature::from(Cuboid::solid([-1.0; 3], [1.0; 3]).turned(quarter));
-    /// let gap = cube.clearance(Vec3::new(2.0, 0.0, 0.0), 0.5).gap;
-    /// assert!((gap - (1.5 - 2.0_f64.sqrt())).abs() < 1e-15);
-    /// ```
-    #[must_use]
-    pub fn turned(self, rotation: [T; 3]) -> Self {
-        let rotation = reference_rotation(rotation.into(), T::ONE);
-        Self { rotation: Some(rotation), ..self }
     }
 
     /// The six faces as planes that look into the box.
@@ -251,39 +233,29 @@ impl<T: Real> Cuboid<T> {
 
 const LOWER: Key = Key::new("lower", Meaning::Point);
 const UPPER: Key = Key::new("upper", Meaning::Point);
-const ROTATION: Key = Key::new("rotation", Meaning::Direction);
 
 impl<T: Real> Solid<T> for Cuboid<T> {
     type In<B: Real> = Cuboid<B>;
 
     const NAME: &'static str = "box";
-    const KEYS: &'static [Key] = &[LOWER, UPPER, ROTATION, INSIDE];
+    const KEYS: &'static [Key] = &[LOWER, UPPER, INSIDE];
 
     fn read(entry: &ShapeEntry) -> Result<Cuboid<f64>, Mistake> {
         let (lower, upper) = (entry.vector(LOWER)?.into(), entry.vector(UPPER)?.into());
-        let level = Cuboid { lower, upper, rotation: None, inside: entry.flag(INSIDE) };
-        if !entry.has(ROTATION) {
-            return Ok(level);
-        }
-        let rotation = entry.vector(ROTATION)?;
-        finite::<f64>(ROTATION.name, rotation.into(), "every component")?;
-        Ok(level.turned(rotation))
+        Ok(Cuboid { lower, upper, rotation: None, inside: entry.flag(INSIDE) })
     }
 
     fn check(&self) -> Result<(), Mistake> {
-        corners(self.lower, self.upper)?;
-        let columns = self.rotation.map_or([Vec3::ZERO; 3], |rotation| rotation.columns);
-        for column in columns {
-            finite::<T>(ROTATION.name, column.cast(), "every component of the matrix")?;
-        }
-        Ok(())
+        corners(self.lower, self.upper)
     }
 
     fn cast<B: Real>(&self) -> Cuboid<B> {
-        let rotation = self
-            .rotation
-            .map(|Mat3 { columns: [a, b, c] }| Mat3::from_columns(a.cast(), b.cast(), c.cast()));
-        Cuboid { lower: self.lower.cast(), upper: self.upper.cast(), rotation, inside: self.inside }
+        Cuboid {
+            lower: self.lower.cast(),
+            upper: self.upper.cast(),
+            rotation: self.rotation.map(Mat3::cast),
+            inside: self.inside,
+        }
     }
 
     /// A container is six faces.
@@ -295,13 +267,15 @@ impl<T: Real> Solid<T> for Cuboid<T> {
         self.around().into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        Self {
-            lower: (self.lower - origin) * scale,
-            upper: (self.upper - origin) * scale,
-            rotation: self.rotation,
-            inside: self.inside,
-        }
+    fn placed(&self, at: &Placement<T>) -> Self {
+        let Some(turn) = at.rotation() else {
+            return Self { lower: at.point(self.lower), upper: at.point(self.upper), ..*self };
+        };
+        let half = self.upper - self.lower;
+        let half = half * at.length(T::ratio(1, 2));
+        let middle = at.point(self.middle());
+        let rotation = Some(self.rotation.map_or(turn, |rotation| turn * rotation));
+        Self { lower: middle - half, upper: middle + half, rotation, ..*self }
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

@@ -1,8 +1,9 @@
 //! Cylinder: solid or hollow, with ends or without.
 
 use super::axis::{Axis, inscribed, joined};
-use super::entry::{AXIS, CENTER, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry};
+use super::entry::{AXIS, CENTER, HALF_HEIGHT, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, direction, point, positive};
+use super::placement::Placement;
 use super::solid::Solid;
 use super::{Feature, Frustum, Plane, Rod};
 use crate::real::Real;
@@ -10,8 +11,9 @@ use crate::vec3::Vec3;
 
 /// A cylinder fixed in space.
 ///
-/// In a scene file: `shape = "cylinder"` with `center`, `axis`, `radius`, `height` and
-/// `inside`; `inside = true` makes a container. Without a `height` it has no end.
+/// In a scene file: `shape = "cylinder"` with `center`, `axis`, `radius`, `height` or
+/// `half_height`, and `inside`; `inside = true` makes a container. Without a height it has no
+/// end, unless it is called `"capped-cylinder"`, which has to have one.
 ///
 /// ```
 /// use carom::surroundings::{Cylinder, Shape};
@@ -63,17 +65,26 @@ impl<T: Real> Cylinder<T> {
     }
 }
 
+/// One that has ends.
+const CAPPED: &str = "capped-cylinder";
+
 impl<T: Real> Solid<T> for Cylinder<T> {
     type In<B: Real> = Cylinder<B>;
 
     const NAME: &'static str = "cylinder";
-    const KEYS: &'static [Key] = &[CENTER, AXIS, RADIUS, HEIGHT, INSIDE];
+    const OTHER_NAME: Option<&'static str> = Some(CAPPED);
+    const KEYS: &'static [Key] = &[CENTER, AXIS, RADIUS, HEIGHT, HALF_HEIGHT, INSIDE];
 
     fn read(entry: &ShapeEntry) -> Result<Cylinder<f64>, Mistake> {
+        let height = entry.height()?;
+        if height.is_none() && entry.shape == CAPPED {
+            let wanted = "a capped cylinder has a half_height, or a height";
+            return Err(Mistake::missing(HALF_HEIGHT.name, wanted));
+        }
         Ok(Cylinder {
             axis: Axis::new(entry.vector(CENTER)?, entry.vector(AXIS)?),
             radius: entry.number(RADIUS, "a cylinder has a radius greater than 0")?,
-            height: entry.optional(HEIGHT),
+            height,
             inside: entry.flag(INSIDE),
         })
     }
@@ -114,11 +125,11 @@ impl<T: Real> Solid<T> for Cylinder<T> {
         around.into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+    fn placed(&self, at: &Placement<T>) -> Self {
         Self {
-            axis: self.axis.in_frame(origin, scale),
-            radius: self.radius * scale,
-            height: self.height.map(|height| height * scale),
+            axis: self.axis.placed(at),
+            radius: at.length(self.radius),
+            height: self.height.map(|height| at.length(height)),
             inside: self.inside,
         }
     }

@@ -3,6 +3,7 @@
 use super::axis::Axis;
 use super::entry::{AXIS, CENTER, Key, Meaning, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, direction, not_negative, point, positive};
+use super::placement::Placement;
 use super::slant::Slant;
 use super::solid::Solid;
 use super::{Band, Feature};
@@ -12,8 +13,8 @@ use crate::vec3::Vec3;
 /// A thin disc fixed in space, touched from both sides and at its rim; with a hole in its
 /// middle an annulus, which has another rim there.
 ///
-/// In a scene file: `shape = "disc"` with `center`, `axis`, `radius` and `hole_radius`, 0 by
-/// default.
+/// In a scene file: `shape = "disc"` with `center`, `axis` and `radius`, or `shape =
+/// "annulus"` with `center`, `axis`, and the radii `inner` and `outer`.
 ///
 /// ```
 /// use carom::surroundings::{Disc, Shape};
@@ -47,33 +48,48 @@ impl<T: Real> Disc<T> {
     }
 }
 
-const HOLE_RADIUS: Key = Key::new("hole_radius", Meaning::Length);
+const INNER: Key = Key::new("inner", Meaning::Length);
+const OUTER: Key = Key::new("outer", Meaning::Length);
+const ANNULUS: &str = "annulus";
 
 impl<T: Real> Solid<T> for Disc<T> {
     type In<B: Real> = Disc<B>;
 
     const NAME: &'static str = "disc";
-    const KEYS: &'static [Key] = &[CENTER, AXIS, RADIUS, HOLE_RADIUS];
+    const OTHER_NAME: Option<&'static str> = Some(ANNULUS);
+    const KEYS: &'static [Key] = &[CENTER, AXIS, RADIUS, INNER, OUTER];
 
     fn read(entry: &ShapeEntry) -> Result<Disc<f64>, Mistake> {
-        Ok(Disc {
-            axis: Axis::new(entry.vector(CENTER)?, entry.vector(AXIS)?),
-            radius: entry.number(RADIUS, "a disc has a radius greater than 0")?,
-            hole_radius: entry.optional(HOLE_RADIUS).unwrap_or(0.0),
-        })
+        let axis = Axis::new(entry.vector(CENTER)?, entry.vector(AXIS)?);
+        let (others, name) = if entry.shape == ANNULUS {
+            (&[RADIUS][..], "disc")
+        } else {
+            (&[INNER, OUTER][..], ANNULUS)
+        };
+        if let Some(other) = others.iter().find(|key| entry.has(**key)) {
+            let found = format!("there beside shape = \"{}\"", entry.shape);
+            return Err(Mistake::described(other.name, found, format!("it is a key of a {name}")));
+        }
+        if entry.shape == ANNULUS {
+            let hole_radius = entry.number(INNER, "an annulus has the radius of its hole")?;
+            let radius = entry.number(OUTER, "an annulus has a radius greater than 0")?;
+            return Ok(Disc { axis, radius, hole_radius });
+        }
+        let radius = entry.number(RADIUS, "a disc has a radius greater than 0")?;
+        Ok(Disc { axis, radius, hole_radius: 0.0 })
     }
 
     fn check(&self) -> Result<(), Mistake> {
         point(CENTER.name, self.axis.center)?;
         direction(AXIS.name, self.axis.direction)?;
         let [radius, hole] = [self.radius, self.hole_radius].map(T::to_f64);
-        positive::<T>(RADIUS.name, radius, "a radius")?;
-        not_negative::<T>(HOLE_RADIUS.name, hole, "a radius")?;
+        positive::<T>(if hole == 0.0 { RADIUS } else { OUTER }.name, radius, "a radius")?;
+        not_negative::<T>(INNER.name, hole, "a radius")?;
         if self.hole_radius < self.radius {
             return Ok(());
         }
-        let wanted = format!("it must be less than the radius of the disc, {radius:?}");
-        Err(Mistake::value(HOLE_RADIUS.name, hole, wanted))
+        let wanted = format!("it must be less than outer, {radius:?}");
+        Err(Mistake::value(INNER.name, hole, wanted))
     }
 
     fn cast<B: Real>(&self) -> Disc<B> {
@@ -86,18 +102,18 @@ impl<T: Real> Solid<T> for Disc<T> {
 
     fn features(&self) -> Vec<Feature<T>> {
         let slant = Slant::new([self.hole_radius, T::ZERO], [self.radius, T::ZERO]);
-        vec![Band { axis: self.axis, slant, is_lining: false }.into()]
+        vec![Band::thin(self.axis, slant).into()]
     }
 
     fn points(&self) -> Vec<Vec3<T>> {
         self.axis.around(T::ZERO, self.radius).into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+    fn placed(&self, at: &Placement<T>) -> Self {
         Self {
-            axis: self.axis.in_frame(origin, scale),
-            radius: self.radius * scale,
-            hole_radius: self.hole_radius * scale,
+            axis: self.axis.placed(at),
+            radius: at.length(self.radius),
+            hole_radius: at.length(self.hole_radius),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::entry::{CENTER, INSIDE, Key, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, point, positive};
+use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{Approach, FreeFlight, Start, greatest_component};
@@ -142,12 +143,8 @@ impl<T: Real> Solid<T> for FixedSphere<T> {
         vec![self.center, lower, upper]
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        Self {
-            center: (self.center - origin) * scale,
-            radius: self.radius * scale,
-            inside: self.inside,
-        }
+    fn placed(&self, at: &Placement<T>) -> Self {
+        Self { center: at.point(self.center), radius: at.length(self.radius), inside: self.inside }
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

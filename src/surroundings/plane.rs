@@ -2,6 +2,7 @@
 
 use super::entry::{Key, Meaning, ShapeEntry};
 use super::mistake::{Mistake, direction, point};
+use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{FreeFlight, Start, fall_of_height, greatest_component};
@@ -105,7 +106,7 @@ impl<T: Real> Solid<T> for Plane<T> {
         vec![self.point]
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        Self { point: (self.point - origin) * scale, normal: self.normal }
+    fn placed(&self, at: &Placement<T>) -> Self {
+        Self { point: at.point(self.point), normal: at.unit(self.normal) }
     }
 }

@@ -42,9 +42,29 @@ impl<T: Real> Slant<T> {
         Self { start, end, along, length }
     }
 
+    /// From the axis on without end, so far out for so far up.
+    pub(super) fn endless(slope: T) -> Self {
+        let infinite = T::from_f64(f64::INFINITY);
+        let Self { along, .. } = Self::new([T::ZERO; 2], [slope, T::ONE]);
+        Self { start: [T::ZERO; 2], end: [infinite; 2], along, length: infinite }
+    }
+
     /// The unit normal to the right: out of the axis, of what goes up.
     pub(super) fn right(&self) -> [T; 2] {
         [self.along[1], -self.along[0]]
+    }
+
+    /// The same line, the other way.
+    pub(super) fn reversed(&self) -> Self {
+        let [out, up] = self.along;
+        Self { start: self.end, end: self.start, along: [-out, -up], length: self.length }
+    }
+
+    /// How far places are to the right of the line, which goes on without end.
+    #[inline(always)]
+    pub(super) fn to_the_right<L: Lane<Scalar = T>>(&self, distance: L, height: L) -> L {
+        let ([out, up], [far, high]) = (self.along.map(L::splat), self.start.map(L::splat));
+        (distance - far) * up - (height - high) * out
     }
 
     /// Where places are to the line.
@@ -54,7 +74,7 @@ impl<T: Real> Slant<T> {
         let from_start = [distance - L::splat(self.start[0]), height - L::splat(self.start[1])];
         let from_end = [distance - L::splat(self.end[0]), height - L::splat(self.end[1])];
         let along = from_start[0] * out + from_start[1] * up;
-        let right = from_start[0] * up - from_start[1] * out;
+        let right = self.to_the_right(distance, height);
         let is_right = right.ge(L::ZERO);
 
         // Between the ends by the line's own normal, which rounding of the place leaves

@@ -2,6 +2,7 @@
 
 use super::entry::{Key, ShapeEntry};
 use super::mistake::Mistake;
+use super::placement::Placement;
 use super::{Clearance, Feature};
 use crate::contact::FreeFlight;
 use crate::lane::Lane;
@@ -46,6 +47,9 @@ pub(crate) trait Solid<T: Real>: Clone {
     /// What `shape` in a scene file, and messages, call it.
     const NAME: &'static str;
 
+    /// Another name of it, in a scene file only.
+    const OTHER_NAME: Option<&'static str> = None;
+
     /// The keys of its entry, in the order that messages list them.
     const KEYS: &'static [Key];
 
@@ -61,9 +65,8 @@ pub(crate) trait Solid<T: Real>: Clone {
     /// The points that it is described by, length.
     fn points(&self) -> Vec<Vec3<T>>;
 
-    /// The same shape seen from an origin, in a unit of length: every point becomes
-    /// `(p − origin)·scale`, every length `l·scale`.
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self;
+    /// The same shape, scaled, turned and moved.
+    fn placed(&self, at: &Placement<T>) -> Self;
 
     /// What a sphere can touch in one point at a time: the shape itself, or
     /// what it falls apart into.
@@ -91,10 +94,19 @@ pub(crate) trait Solid<T: Real>: Clone {
 pub(crate) struct ShapeKind {
     /// As [`Solid::NAME`].
     pub(crate) name: &'static str,
+    /// As [`Solid::OTHER_NAME`].
+    pub(crate) other_name: Option<&'static str>,
     /// As [`Solid::KEYS`].
     pub(crate) keys: &'static [Key],
     /// As [`Solid::read`].
     pub(crate) read: fn(&ShapeEntry) -> Result<super::Shape<f64>, Mistake>,
+}
+
+impl ShapeKind {
+    /// All its names in scene files.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'static str> {
+        core::iter::once(self.name).chain(self.other_name)
+    }
 }
 
 /// Makes of two lists, of solids and of what spheres touch of them, each by its module and
@@ -117,7 +129,7 @@ macro_rules! solids {
         /// assert_eq!(container.features().len(), 6);
         /// # Ok::<(), &str>(())
         /// ```
-        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[derive(Clone, Debug, PartialEq)]
         #[non_exhaustive]
         pub enum Shape<T> {
             $($(#[$doc])* $solid($solid<T>),)*
@@ -133,7 +145,7 @@ macro_rules! solids {
         /// let clearance = ball.clearance(Vec3::new(0.0, 0.0, 4.0), 0.5);
         /// assert_eq!(clearance.gap, 1.5);
         /// ```
-        #[derive(Clone, Copy, Debug)]
+        #[derive(Clone, Debug)]
         #[non_exhaustive]
         pub enum Feature<T> {
             $($(#[$touched_doc])* $touched($touched<T>),)*
@@ -159,7 +171,7 @@ macro_rules! solids {
         impl<T: Real> Shape<T> {
             /// The features that a sphere can touch, each in one point at a time:
             /// the six faces of a hollow box, the wall and the ends of a hollow
-            /// cylinder or cone, one of every other shape.
+            /// cylinder or cone, those of a [`Revolved`], one of most shapes.
             ///
             /// ```
             /// use carom::surroundings::{Plane, Shape};
@@ -212,10 +224,10 @@ macro_rules! solids {
                 }
             }
 
-            /// As [`Solid::in_frame`].
-            pub(crate) fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+            /// As [`Solid::placed`].
+            pub(crate) fn placed(&self, at: &Placement<T>) -> Self {
                 match self {
-                    $(Self::$solid(solid) => Self::$solid(solid.in_frame(origin, scale)),)*
+                    $(Self::$solid(solid) => Self::$solid(solid.placed(at)),)*
                 }
             }
 
@@ -290,6 +302,7 @@ macro_rules! solids {
         /// All kinds of shape, in the order of the list.
         pub(crate) const SHAPE_KINDS: &[ShapeKind] = &[$(ShapeKind {
             name: <$solid<f64> as Solid<f64>>::NAME,
+            other_name: <$solid<f64> as Solid<f64>>::OTHER_NAME,
             keys: <$solid<f64> as Solid<f64>>::KEYS,
             read: |entry| <$solid<f64> as Solid<f64>>::read(entry).map(Shape::$solid),
         },)*];

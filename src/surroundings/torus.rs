@@ -2,10 +2,11 @@
 
 use super::Clearance;
 use super::axis::Axis;
-use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, RADIUS, ShapeEntry};
+use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, ShapeEntry};
 use super::mistake::{Mistake, direction, point, positive};
 use super::piece::Piece;
 use super::pieced::Pieced;
+use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
@@ -14,8 +15,8 @@ use crate::vec3::Vec3;
 
 /// A torus fixed in space: a tube along a circle.
 ///
-/// In a scene file: `shape = "torus"` with `center`, `axis`, the `radius` of the circle,
-/// `tube_radius` and `inside`; `inside = true` makes a container.
+/// In a scene file: `shape = "torus"` with `center`, `axis`, `major`, the radius of the
+/// circle, `minor`, that of the tube, and `inside`; `inside = true` makes a container.
 ///
 /// ```
 /// use carom::surroundings::{Feature, Torus};
@@ -112,19 +113,20 @@ impl<T: Real> Pieced<T> for Torus<T> {
     }
 }
 
-const TUBE_RADIUS: Key = Key::new("tube_radius", Meaning::Length);
+const MAJOR: Key = Key::new("major", Meaning::Length);
+const MINOR: Key = Key::new("minor", Meaning::Length);
 
 impl<T: Real> Solid<T> for Torus<T> {
     type In<B: Real> = Torus<B>;
 
     const NAME: &'static str = "torus";
-    const KEYS: &'static [Key] = &[CENTER, AXIS, RADIUS, TUBE_RADIUS, INSIDE];
+    const KEYS: &'static [Key] = &[CENTER, AXIS, MAJOR, MINOR, INSIDE];
 
     fn read(entry: &ShapeEntry) -> Result<Torus<f64>, Mistake> {
         Ok(Torus {
             axis: Axis::new(entry.vector(CENTER)?, entry.vector(AXIS)?),
-            radius: entry.number(RADIUS, "a torus has the radius of its circle")?,
-            tube_radius: entry.number(TUBE_RADIUS, "a torus has the radius of its tube")?,
+            radius: entry.number(MAJOR, "a torus has the radius of its circle")?,
+            tube_radius: entry.number(MINOR, "a torus has the radius of its tube")?,
             inside: entry.flag(INSIDE),
         })
     }
@@ -132,16 +134,16 @@ impl<T: Real> Solid<T> for Torus<T> {
     fn check(&self) -> Result<(), Mistake> {
         point(CENTER.name, self.axis.center)?;
         direction(AXIS.name, self.axis.direction)?;
-        positive::<T>(RADIUS.name, self.radius.to_f64(), "a radius")?;
-        positive::<T>(TUBE_RADIUS.name, self.tube_radius.to_f64(), "a radius")?;
+        positive::<T>(MAJOR.name, self.radius.to_f64(), "a radius")?;
+        positive::<T>(MINOR.name, self.tube_radius.to_f64(), "a radius")?;
         if self.tube_radius < self.radius {
             return Ok(());
         }
         let wanted = format!(
-            "it must be less than the radius of the circle, {:?}, so that there is a hole",
+            "it must be less than major, {:?}, so that there is a hole",
             self.radius.to_f64()
         );
-        Err(Mistake::value(TUBE_RADIUS.name, self.tube_radius.to_f64(), wanted))
+        Err(Mistake::value(MINOR.name, self.tube_radius.to_f64(), wanted))
     }
 
     fn cast<B: Real>(&self) -> Torus<B> {
@@ -161,11 +163,11 @@ impl<T: Real> Solid<T> for Torus<T> {
         self.around().into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+    fn placed(&self, at: &Placement<T>) -> Self {
         Self {
-            axis: self.axis.in_frame(origin, scale),
-            radius: self.radius * scale,
-            tube_radius: self.tube_radius * scale,
+            axis: self.axis.placed(at),
+            radius: at.length(self.radius),
+            tube_radius: at.length(self.tube_radius),
             inside: self.inside,
         }
     }

@@ -1,7 +1,8 @@
 //! Triangle: a thin one, touched from both sides.
 
-use super::entry::{Key, Meaning, ShapeEntry};
+use super::entry::{Key, ShapeEntry, VERTICES};
 use super::mistake::{Mistake, point};
+use super::placement::Placement;
 use super::solid::Solid;
 use super::{Facet, Feature};
 use crate::real::Real;
@@ -9,7 +10,7 @@ use crate::vec3::Vec3;
 
 /// A thin triangle fixed in space, touched from both sides, at its edges and its corners.
 ///
-/// In a scene file: `shape = "triangle"` with the corners `a`, `b` and `c`.
+/// In a scene file: `shape = "triangle"` with three `vertices`.
 ///
 /// ```
 /// use carom::surroundings::{Shape, Triangle};
@@ -40,24 +41,26 @@ impl<T: Real> Triangle<T> {
     }
 }
 
-const CORNERS: [Key; 3] =
-    [Key::new("a", Meaning::Point), Key::new("b", Meaning::Point), Key::new("c", Meaning::Point)];
-
 impl<T: Real> Solid<T> for Triangle<T> {
     type In<B: Real> = Triangle<B>;
 
     const NAME: &'static str = "triangle";
-    const KEYS: &'static [Key] = &CORNERS;
+    const KEYS: &'static [Key] = &[VERTICES];
 
     fn read(entry: &ShapeEntry) -> Result<Triangle<f64>, Mistake> {
-        let [a, b, c] = CORNERS;
-        Ok(Triangle::new(entry.vector(a)?, entry.vector(b)?, entry.vector(c)?))
+        match *entry.points(VERTICES)? {
+            [a, b, c] => Ok(Triangle::new(a, b, c)),
+            ref other => {
+                let found = format!("a list of {} points", other.len());
+                Err(Mistake::described(VERTICES.name, found, "a triangle has three"))
+            }
+        }
     }
 
     fn check(&self) -> Result<(), Mistake> {
         let [a, b, c] = self.corners;
-        for (key, corner) in CORNERS.iter().zip(self.corners) {
-            point(key.name, corner)?;
+        for corner in self.corners {
+            point(VERTICES.name, corner)?;
         }
         let sides = [b - a, c - b, a - c];
         let longest = sides.map(|side| side.length_squared()).into_iter().fold(T::ZERO, T::greater);
@@ -66,11 +69,12 @@ impl<T: Real> Solid<T> for Triangle<T> {
         if longest.is_finite() && area > T::whole(4) * T::EPSILON * longest {
             return Ok(());
         }
+        let corners = self.corners.map(|corner| corner.cast::<f64>().to_array());
         let wanted = format!(
             "the corners must not lie on one line, nor farther apart than {} can square",
             T::NAME
         );
-        Err(Mistake::value(CORNERS[2].name, c.cast::<f64>().to_array(), wanted))
+        Err(Mistake::value(VERTICES.name, corners, wanted))
     }
 
     fn cast<B: Real>(&self) -> Triangle<B> {
@@ -85,7 +89,7 @@ impl<T: Real> Solid<T> for Triangle<T> {
         self.corners.into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
-        Self { corners: self.corners.map(|corner| (corner - origin) * scale) }
+    fn placed(&self, at: &Placement<T>) -> Self {
+        Self { corners: self.corners.map(|corner| at.point(corner)) }
     }
 }

@@ -1,8 +1,9 @@
 //! Tube: a thin tube or funnel, open at both ends.
 
 use super::axis::{Axis, joined};
-use super::entry::{AXIS, BASE, HEIGHT, Key, RADIUS, ShapeEntry, TOP_RADIUS};
+use super::entry::{AXIS, BASE, CENTER, HALF_HEIGHT, HEIGHT, Key, RADIUS, ShapeEntry, TOP_RADIUS};
 use super::mistake::Mistake;
+use super::placement::Placement;
 use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature};
@@ -12,8 +13,9 @@ use crate::vec3::Vec3;
 /// A thin tube fixed in space, open at both ends, touched from inside, from outside and at
 /// its rims; with another radius at its top it is a funnel.
 ///
-/// In a scene file: `shape = "tube"` with the middle of its `base`, the `axis` from there,
-/// `height`, `radius` at the base, and `top_radius`, by default the same.
+/// In a scene file: `shape = "tube"` with `center`, `axis`, `half_height` and `radius`; or with
+/// the middle of its `base`, the `axis` from there, `height`, `radius` at the base, and
+/// `top_radius`, by default the same.
 ///
 /// ```
 /// use carom::surroundings::{Shape, Tube};
@@ -54,13 +56,18 @@ impl<T: Real> Solid<T> for Tube<T> {
     type In<B: Real> = Tube<B>;
 
     const NAME: &'static str = "tube";
-    const KEYS: &'static [Key] = &[BASE, AXIS, HEIGHT, RADIUS, TOP_RADIUS];
+    const KEYS: &'static [Key] = &[CENTER, BASE, AXIS, HALF_HEIGHT, HEIGHT, RADIUS, TOP_RADIUS];
 
     fn read(entry: &ShapeEntry) -> Result<Tube<f64>, Mistake> {
         let radius = entry.number(RADIUS, "a tube has the radius of its base")?;
+        let height = entry.height()?.ok_or_else(|| {
+            Mistake::missing(HEIGHT.name, "a tube has a height greater than 0, or a half_height")
+        })?;
+        let axis =
+            |end| -> Result<_, Mistake> { Ok(Axis::new(entry.vector(end)?, entry.vector(AXIS)?)) };
         Ok(Tube {
-            axis: Axis::new(entry.vector(BASE)?, entry.vector(AXIS)?),
-            height: entry.number(HEIGHT, "a tube has a height greater than 0")?,
+            axis: if entry.has(CENTER) { axis(CENTER)?.moved(-0.5 * height) } else { axis(BASE)? },
+            height,
             radii: [radius, entry.optional(TOP_RADIUS).unwrap_or(radius)],
         })
     }
@@ -80,7 +87,7 @@ impl<T: Real> Solid<T> for Tube<T> {
     fn features(&self) -> Vec<Feature<T>> {
         let [base, top] = self.radii;
         let slant = Slant::new([base, T::ZERO], [top, self.height]);
-        vec![Band { axis: self.axis, slant, is_lining: false }.into()]
+        vec![Band::thin(self.axis, slant).into()]
     }
 
     fn points(&self) -> Vec<Vec3<T>> {
@@ -88,11 +95,11 @@ impl<T: Real> Solid<T> for Tube<T> {
         joined(self.axis.around(T::ZERO, base), self.axis.around(self.height, top)).into()
     }
 
-    fn in_frame(&self, origin: Vec3<T>, scale: T) -> Self {
+    fn placed(&self, at: &Placement<T>) -> Self {
         Self {
-            axis: self.axis.in_frame(origin, scale),
-            height: self.height * scale,
-            radii: self.radii.map(|radius| radius * scale),
+            axis: self.axis.placed(at),
+            height: at.length(self.height),
+            radii: self.radii.map(|radius| at.length(radius)),
         }
     }
 }

@@ -214,16 +214,21 @@ fn shape_message(shape: &str, keys: &str) -> String {
 #[test]
 fn round_shapes_that_cannot_be() {
     let cases = [
-        ("triangle", "a = [0, 0, 5]\nb = [1, 0, 5]", "s.toml:2: surroundings[0].c is missing; "),
         (
             "triangle",
-            "a = [0, 0, 5]\nb = [1, 1, 5]\nc = [3, 3, 5]",
-            "s.toml:6: surroundings[0].c is [3.0, 3.0, 5.0]; the corners must not lie on one ",
+            "vertices = [[0, 0, 5], [1, 0, 5]]",
+            "s.toml:4: surroundings[0].vertices is a list of 2 points; a triangle has three",
         ),
         (
             "triangle",
-            "a = [0, 0, 5]\nb = [1, inf, 5]\nc = [3, 3, 5]",
-            "s.toml:5: surroundings[0].b is [1.0, inf, 5.0]; every component must be finite",
+            "vertices = [[0, 0, 5], [1, 1, 5], [3, 3, 5]]",
+            "s.toml:4: surroundings[0].vertices is [[0.0, 0.0, 5.0], [1.0, 1.0, 5.0], [3.0, 3.0, \
+             5.0]]; the corners must not lie on one ",
+        ),
+        (
+            "triangle",
+            "vertices = [[0, 0, 5], [1, inf, 5], [3, 3, 5]]",
+            "s.toml:4: surroundings[0].vertices is [1.0, inf, 5.0]; every component must be finite",
         ),
         (
             "capsule",
@@ -256,9 +261,62 @@ fn round_shapes_that_cannot_be() {
             "s.toml:8: surroundings[0].top_radius is -1.0; a radius, if not 0, must be finite ",
         ),
         (
-            "disc",
-            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1\nhole_radius = 1",
-            "s.toml:7: surroundings[0].hole_radius is 1.0; it must be less than the radius of the ",
+            "annulus",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\ninner = 1\nouter = 1",
+            "s.toml:6: surroundings[0].inner is 1.0; it must be less than outer, 1.0",
+        ),
+        (
+            "annulus",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1",
+            "s.toml:6: surroundings[0].radius is there beside shape = \"annulus\"; it is a key of \
+             a disc",
+        ),
+        (
+            "capped-cylinder",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1",
+            "s.toml:2: surroundings[0].half_height is missing; ",
+        ),
+        (
+            "cone",
+            "apex = [0, 0, 5]\naxis = [0, 0, 1]\nslope = 1\nheight = 2",
+            "s.toml:7: surroundings[0].height is there beside apex or slope; a cone has ",
+        ),
+        (
+            "hull",
+            "vertices = [[0, 0, 5], [1, 0, 5], [0, 1, 5]]",
+            "s.toml:4: surroundings[0].vertices is a list of 3 points; a hull has four or more",
+        ),
+        (
+            "hull",
+            "vertices = [[0, 0, 5], [1, 0, 5], [0, 1, 5], [1, 1, 5], [3, 2, 5]]",
+            "s.toml:4: surroundings[0].vertices is 5 points in one plane; a hull has a volume",
+        ),
+        (
+            "hull",
+            "vertices = [[0, 0, 5], [1, 0, 5], [0, 1]]",
+            "s.toml:4: surroundings[0].vertices[2] is an array of length 2; it must be three ",
+        ),
+        (
+            "revolved",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nprofile = [[1, 0], [2, 1]]\ninside = true",
+            "s.toml:7: surroundings[0].inside is true; closed = true belongs beside it",
+        ),
+        (
+            "revolved",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nprofile = [[1, 0], [-2, 1]]",
+            "s.toml:6: surroundings[0].profile is through [-2.0, 1.0]; a place is a distance from ",
+        ),
+        (
+            "funnel",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nprofile = [[1, 0], [1, 0]]",
+            "s.toml:6: surroundings[0].profile is twice at [1.0, 0.0]; each place must be ",
+        ),
+        (
+            "revolved",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nclosed = true\n\
+             profile = [[1, 0], [2, 1], [2, 0], [1, 1]]",
+            "s.toml:7: surroundings[0].profile is one whose lines from [1.0, 0.0] to [2.0, 1.0] and \
+             from [2.0, 0.0] to [1.0, 1.0] meet; ",
         ),
         (
             "tube",
@@ -267,17 +325,42 @@ fn round_shapes_that_cannot_be() {
         ),
         (
             "torus",
-            "center = [0, 0, 5]\naxis = [0, 0, 1]\nradius = 1\ntube_radius = 1.5",
-            "s.toml:7: surroundings[0].tube_radius is 1.5; it must be less than the radius of ",
+            "center = [0, 0, 5]\naxis = [0, 0, 1]\nmajor = 1\nminor = 1.5",
+            "s.toml:7: surroundings[0].minor is 1.5; it must be less than major, 1.0",
         ),
         (
             "box",
-            "lower = [0, 0, 5]\nupper = [1, 1, 6]\nrotation = [nan, 0, 0]",
-            "s.toml:6: surroundings[0].rotation is [NaN, 0.0, 0.0]; every component must be ",
+            "lower = [0, 0, 5]\nupper = [1, 1, 6]\nrotation = { axis = [0, 0, 0], angle = 1 }",
+            "s.toml:6: surroundings[0].rotation.axis is [0.0, 0.0, 0.0]; an axis must be finite ",
+        ),
+        (
+            "box",
+            "lower = [0, 0, 5]\nupper = [1, 1, 6]\nrotation = { axis = [0, 0, 1] }",
+            "s.toml:6: surroundings[0].rotation.angle is missing; an angle in rad belongs here",
+        ),
+        (
+            "box",
+            "lower = [0, 0, 5]\nupper = [1, 1, 6]\nscale = -2",
+            "s.toml:6: surroundings[0].scale is -2.0; a scale must be finite and greater than 0",
+        ),
+        (
+            "box",
+            "lower = [0, 0, 5]\nupper = [1, 1, 5]\ntranslation = [0, 0, 3]",
+            "s.toml:4: surroundings[0].lower is [0.0, 0.0, 5.0]; every component must be below ",
+        ),
+        (
+            "box",
+            "lower = [0, 0, 5]\nupper = [1, 1, 6]\ntranslation = [0, 0, inf]",
+            "s.toml:6: surroundings[0].translation is [0.0, 0.0, inf]; every component must be ",
+        ),
+        (
+            "box",
+            "lower = [0, 0, 5]\nupper = [2, 2, 7]\ntranslation = [-1, -1, -6]",
+            "s.toml:7: spheres[0] puts body 0 inside of surroundings[0], which is solid, ",
         ),
         (
             "torus",
-            "center = [0, 0, 0]\naxis = [0, 0, 1]\nradius = 1\ntube_radius = 0.5",
+            "center = [0, 0, 0]\naxis = [0, 0, 1]\nmajor = 1\nminor = 0.5",
             "s.toml:8: spheres[0] puts body 0 inside of surroundings[0], which is solid, ",
         ),
     ];
@@ -303,7 +386,8 @@ fn shapes_that_cannot_be() {
     assert_eq!(
         shape("shape = \"cube\""),
         "s.toml:3: surroundings[0].shape is `cube`; it must be one of `plane`, `box`, `sphere`, \
-         `triangle`, `capsule`, `cylinder`, `cone`, `disc`, `tube`, `torus`"
+         `triangle`, `hull`, `capsule`, `cylinder`, `capped-cylinder`, `cone`, `disc`, `annulus`, \
+         `tube`, `torus`, `revolved`, `funnel`"
     );
     assert_starts(
         &shape("shape = 3"),

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
-use super::{Number, Vector};
+use super::{Number, Pair, Vector};
 use crate::surroundings::{Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
 
 /// An entry.
@@ -15,10 +15,39 @@ use crate::surroundings::{Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Valu
 pub(in crate::scene) struct RawSurroundings {
     pub(in crate::scene) shape: Option<&'static ShapeKind>,
     pub(in crate::scene) values: ShapeEntry,
+    pub(in crate::scene) translation: Option<Vector>,
+    pub(in crate::scene) rotation: Option<RawRotation>,
+    pub(in crate::scene) scale: Option<Number>,
+}
+
+impl RawSurroundings {
+    /// Moves every point away from the origin by a factor.
+    pub(in crate::scene) fn dilate(&mut self, factor: f64) {
+        self.values.dilate(factor);
+        let center = self.rotation.as_mut().and_then(|rotation| rotation.center.as_mut());
+        for Vector(point) in self.translation.as_mut().into_iter().chain(center) {
+            *point = point.map(|component| component * factor);
+        }
+    }
+}
+
+/// `rotation`: how a shape is turned.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawRotation {
+    pub(in crate::scene) axis: Option<Vector>,
+    pub(in crate::scene) angle: Option<Number>,
+    pub(in crate::scene) center: Option<Vector>,
 }
 
 /// What a shape's name stands under.
 const SHAPE: &str = "shape";
+/// Where a shape is moved to.
+const TRANSLATION: &str = "translation";
+/// How a shape is turned.
+const ROTATION: &str = "rotation";
+/// How a shape is scaled.
+const SCALE: &str = "scale";
 
 /// The keys of all shapes, each once: in the order of the shapes, those that
 /// later ones have too behind.
@@ -32,16 +61,21 @@ pub(in crate::scene) static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
 });
 
 /// The names of all keys.
-static KEY_NAMES: LazyLock<Vec<&str>> =
-    LazyLock::new(|| [SHAPE].into_iter().chain(KEYS.iter().map(|key| key.name)).collect());
+static KEY_NAMES: LazyLock<Vec<&str>> = LazyLock::new(|| {
+    let own = KEYS.iter().map(|key| key.name);
+    [SHAPE].into_iter().chain(own).chain([TRANSLATION, ROTATION, SCALE]).collect()
+});
 
 /// The names of all shapes.
 static SHAPE_NAMES: LazyLock<Vec<&str>> =
-    LazyLock::new(|| SHAPE_KINDS.iter().map(|kind| kind.name).collect());
+    LazyLock::new(|| SHAPE_KINDS.iter().flat_map(ShapeKind::names).collect());
 
 /// One of the keys.
 enum Field {
     Shape,
+    Translation,
+    Rotation,
+    Scale,
     Of(Key),
 }
 
@@ -55,8 +89,12 @@ impl<'de> Deserialize<'de> for Field {
             }
 
             fn visit_str<E: Error>(self, name: &str) -> Result<Field, E> {
-                if name == SHAPE {
-                    return Ok(Field::Shape);
+                match name {
+                    SHAPE => return Ok(Field::Shape),
+                    TRANSLATION => return Ok(Field::Translation),
+                    ROTATION => return Ok(Field::Rotation),
+                    SCALE => return Ok(Field::Scale),
+                    _ => {}
                 }
                 let key = KEYS.iter().find(|key| key.name == name);
                 key.map(|key| Field::Of(*key)).ok_or_else(|| E::unknown_field(name, &KEY_NAMES))
@@ -67,7 +105,7 @@ impl<'de> Deserialize<'de> for Field {
 }
 
 /// A shape by its name.
-struct Named(&'static ShapeKind);
+struct Named(&'static ShapeKind, &'static str);
 
 impl<'de> Deserialize<'de> for Named {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -79,8 +117,12 @@ impl<'de> Deserialize<'de> for Named {
             }
 
             fn visit_str<E: Error>(self, name: &str) -> Result<Named, E> {
-                let kind = SHAPE_KINDS.iter().find(|kind| kind.name == name);
-                kind.map(Named).ok_or_else(|| E::unknown_variant(name, &SHAPE_NAMES))
+                let mut names = SHAPE_KINDS
+                    .iter()
+                    .flat_map(|kind| kind.names().map(move |name| Named(kind, name)));
+                names
+                    .find(|Named(_, own)| *own == name)
+                    .ok_or_else(|| E::unknown_variant(name, &SHAPE_NAMES))
             }
         }
         deserializer.deserialize_str(Taker)
@@ -101,9 +143,13 @@ impl<'de> Deserialize<'de> for RawSurroundings {
                 while let Some(field) = map.next_key()? {
                     match field {
                         Field::Shape => {
-                            let Named(shape) = map.next_value()?;
+                            let Named(shape, name) = map.next_value()?;
                             raw.shape = Some(shape);
+                            raw.values.shape = name;
                         }
+                        Field::Translation => raw.translation = Some(map.next_value()?),
+                        Field::Rotation => raw.rotation = Some(map.next_value()?),
+                        Field::Scale => raw.scale = Some(map.next_value()?),
                         Field::Of(key) => raw.values.add(key, value(key, &mut map)?),
                     }
                 }
@@ -121,7 +167,15 @@ fn value<'de, A: MapAccess<'de>>(key: Key, map: &mut A) -> Result<Value, A::Erro
             let Vector(vector) = map.next_value()?;
             Value::Vector(vector)
         }
-        Meaning::Length => {
+        Meaning::Points => {
+            let points: Vec<Vector> = map.next_value()?;
+            Value::Points(points.into_iter().map(|Vector(point)| point).collect())
+        }
+        Meaning::Profile => {
+            let places: Vec<Pair> = map.next_value()?;
+            Value::Profile(places.into_iter().map(|Pair(place)| place).collect())
+        }
+        Meaning::Length | Meaning::Ratio => {
             let Number(number) = map.next_value()?;
             Value::Number(number)
         }

@@ -91,7 +91,7 @@ fn shape<T: Real>(draws: &mut Draws) -> Shape<T> {
     match draws.below(10) {
         0 => Plane::new(first, second).into(),
         1 if is_container => Cuboid::container(first, second).into(),
-        1 => Cuboid::solid(first, second).turned(third).into(),
+        1 => Shape::from(Cuboid::solid(first, second)).turned(third, T::ONE),
         2 if is_container => FixedSphere::container(first, radius).into(),
         2 | 3 => FixedSphere::solid(first, radius).into(),
         4 => Triangle::new(first, second, third).into(),
