@@ -9,6 +9,7 @@ mod frame;
 mod handles;
 mod interface;
 mod later;
+mod parts;
 mod plan;
 #[cfg(feature = "files")]
 mod snapshot;
@@ -26,6 +27,7 @@ pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
 pub use handles::BodyHandle;
+pub use parts::PartTotals;
 pub use plan::{Plan, Turning};
 #[cfg(feature = "files")]
 pub use snapshot::Snapshot;

@@ -157,7 +157,7 @@ fn contact_times<T: Real>() -> u64 {
         let (center, field) = (center * T::whole(2), random.vector());
         let pair = contact_time(center, velocity, radius);
         let mut times = vec![if pair.meets { pair.time } else { -T::ONE }];
-        for feature in features {
+        for feature in &features {
             for field in [None, Some(field)] {
                 let time = feature.contact_time(center, velocity, field, radius, false);
                 times.push(time.unwrap_or(-T::ONE));

@@ -6,7 +6,7 @@ use carom::contact::Surface;
 use carom::engine::{Compiled, Execution, World};
 use carom::observe::Energy;
 use carom::scene::{EngineKind, Impact, Scene, SceneFile, Sphere};
-use carom::surroundings::{Cone, Cylinder, Shape};
+use carom::surroundings::{Capsule, Cone, Cylinder, Disc, FixedSphere, Revolved, Shape, Torus};
 
 const ENGINES: [EngineKind; 2] = [EngineKind::EventDriven, EngineKind::Stepped];
 
@@ -96,6 +96,88 @@ fn a_ball_in_a_cone_keeps_the_law_of_the_apex() {
             let kept = about_axis(end, world.bodies().velocity_of(0)) - about_axis(p, v);
             assert!(kept.abs() < 1e-14, "{engine:?} {position:?}: {kept:e}");
         }
+    }
+}
+
+/// A smooth ball keeps its angular momentum about the axis of whatever is round about it, and
+/// its energy.
+#[test]
+fn about_the_axis_of_a_round_part_nothing_turns_a_smooth_ball() {
+    let up = [0.0, 0.0, 1.0];
+    let vase = [[0.0, -3.0], [2.5, -3.0], [2.5, 0.5], [1.0, 2.0], [1.5, 3.0], [0.0, 3.5]];
+    let spool = [[0.0, -1.0], [1.0, -1.0], [0.25, 0.0], [1.0, 1.0], [0.0, 0.75]];
+    let around = |shape: Shape<f64>| vec![FixedSphere::container([0.0; 3], 4.0).into(), shape];
+    let thin = [[0.5, -2.0], [0.5, -1.0], [2.0, 1.0], [2.0, 2.0]];
+    let cases: Vec<(&str, [f64; 3], Vec<Shape<f64>>)> = vec![
+        ("sphere", [1.0, 0.0, 0.5], vec![FixedSphere::container([0.0; 3], 3.0).into()]),
+        (
+            "cylinder",
+            [1.0, 0.0, 0.5],
+            vec![Cylinder::container([0.0; 3], up, 2.0, Some(5.0)).into()],
+        ),
+        (
+            "cone",
+            [0.5, 0.0, 0.5],
+            vec![Cone::container([0.0, 0.0, -1.0], up, 4.0, [3.0, 1.0]).into()],
+        ),
+        ("capsule", [1.0, 0.0, 0.5], vec![Capsule::container([0.0, 0.0, -1.0], up, 2.0).into()]),
+        ("torus", [3.0, 0.0, 0.25], vec![Torus::container([0.0; 3], up, 3.0, 1.0).into()]),
+        ("vase", [1.0, 0.0, 0.5], vec![Revolved::container([0.0; 3], up, vase).into()]),
+        ("solid torus", [3.0, 0.0, 1.5], around(Torus::solid([0.0; 3], up, 2.0, 0.5).into())),
+        ("solid cone", [1.5, 0.0, 1.0], around(Cone::solid([0.0; 3], up, 1.0, [1.0, 0.0]).into())),
+        ("spool", [1.75, 0.0, 0.5], around(Revolved::solid([0.0; 3], up, spool).into())),
+        ("hopper", [1.0, 0.0, 1.5], around(Revolved::thin([0.0; 3], up, thin).into())),
+        ("annulus", [1.5, 0.0, 1.0], around(Disc::new([0.0; 3], up, 1.5, 0.5).into())),
+    ];
+    for engine in ENGINES {
+        for (name, position, shapes) in &cases {
+            let mut scene = Scene::<f64>::builder().engine(engine).dt(0.01);
+            for shape in shapes {
+                scene = scene.surroundings(shape.clone());
+            }
+            let ball = Sphere::new(*position).radius(0.25).velocity([-0.5, 1.0, -0.75]);
+            let mut world =
+                World::new(scene.sphere(ball).build().unwrap(), Execution::default()).unwrap();
+            let about_axis = |world: &World<f64>| {
+                let bodies = world.bodies();
+                bodies.position_of(0).cross(bodies.velocity_of(0)).z
+            };
+            let (before, energy) = (about_axis(&world), world.energy().total());
+            world.advance(100.0).unwrap();
+            let hits = world.collisions().surroundings;
+            assert!(hits > 20, "{name} {engine:?}: {hits}");
+            let change = (about_axis(&world) - before).abs();
+            assert!(change < 1e-12, "{name} {engine:?}: {change:e} after {hits}");
+            let drift = (world.energy().total() / energy - 1.0).abs();
+            assert!(drift < 1e-13, "{name} {engine:?}: {drift:e} after {hits}");
+        }
+    }
+}
+
+/// A rough ball inside a sphere keeps `I w − (r/R) m c × v`, where its centre can be as far
+/// as `R` from that of the sphere: an impulse `J` at the point of contact, `(r/R) c` from
+/// its centre, turns it by `(r/R) c × J`.
+#[test]
+fn a_rough_ball_inside_a_sphere_keeps_a_vector() {
+    let (radius, reach, factor) = (0.25, 2.75, 0.4);
+    for engine in ENGINES {
+        let ball = Sphere::new([1.0, 0.5, -0.25])
+            .radius(radius)
+            .velocity([0.5, 1.0, -0.75])
+            .spin([3.0, -2.0, 1.0])
+            .inertia_factor(factor);
+        let vessel = FixedSphere::container([0.0; 3], radius + reach);
+        let mut world = with_ball::<f64>(engine, 0.01, Surface::Rough, vessel, [0.0; 3], ball);
+        let kept = |world: &World<f64>| {
+            let bodies = world.bodies();
+            let spin = bodies.spin_of(0) * (factor * radius * radius);
+            spin - bodies.position_of(0).cross(bodies.velocity_of(0)) * (radius / reach)
+        };
+        let before = kept(&world);
+        world.advance(200.0).unwrap();
+        let hits = world.collisions().surroundings;
+        let change = (kept(&world) - before).length();
+        assert!(hits > 50 && change < 1e-13, "{engine:?}: {change:e} after {hits}");
     }
 }
 

@@ -48,6 +48,7 @@ impl<T: Real> Ended<'_, T> {
             earlier,
             earlier_steps,
             measured: measured.total(world),
+            parts: measured.parts(world),
             equilibration: self.equilibration,
             mean_temperature: measured.mean_temperature(course.length()),
             statistics: measured.statistics(course.length()),

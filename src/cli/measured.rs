@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use carom::contact::Surface;
-use carom::engine::{Collisions, World};
+use carom::engine::{Collisions, PartTotals, World};
 use carom::observe::{Statistic, Temperature, collision_rate, compressibility};
 use carom::real::Real;
 use carom::study::{Course, Schedule};
@@ -58,6 +58,8 @@ pub struct Measured {
     begin: f64,
     /// What had added up there.
     before: Option<Reading>,
+    /// The same of each part that is counted apart.
+    parts_before: Vec<PartTotals>,
     gas: Option<Gas>,
 }
 
@@ -93,7 +95,7 @@ impl Measured {
             last_position: 0.0,
             integral: 0.0,
         });
-        Self { begin: begin.unwrap_or(0.0), before: None, gas }
+        Self { begin: begin.unwrap_or(0.0), before: None, parts_before: Vec::new(), gas }
     }
 
     /// The same on a course of another length: the blocks begin again.
@@ -127,7 +129,9 @@ impl Measured {
         temperature: impl FnOnce() -> Option<Temperature>,
     ) {
         let reading = Reading::of(world);
-        self.before.get_or_insert(reading);
+        if self.before.is_none() {
+            (self.before, self.parts_before) = (Some(reading), world.parts());
+        }
         let Some(gas) = &mut self.gas else { return };
         let count = gas.readings.len();
         let last = gas.readings.last().map(|(_, last)| *last);
@@ -148,6 +152,15 @@ impl Measured {
     /// What has added up in the measured part.
     pub fn total<T: Real>(&self, world: &World<T>) -> Reading {
         Reading::of(world).since(&self.before.unwrap_or_default())
+    }
+
+    /// What has added up in it of each part that is counted apart.
+    pub fn parts<T: Real>(&self, world: &World<T>) -> Vec<PartTotals> {
+        let mut parts = world.parts();
+        for (part, before) in parts.iter_mut().zip(&self.parts_before) {
+            *part = part.since(before);
+        }
+        parts
     }
 
     /// The mean translational temperature, of a gas, on a course of this length.

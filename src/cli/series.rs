@@ -33,13 +33,14 @@ impl AskedSeries {
         file: &SceneFile,
         duration: f64,
     ) -> Result<Option<Self>, Failure> {
+        let all = SeriesColumn::all(file.part_names());
         let columns = match file.series_columns() {
-            None => SeriesColumn::all(),
+            None => all,
             Some(names) => names
                 .iter()
                 .map(|name| {
-                    SeriesColumn::named(name).ok_or_else(|| {
-                        let known: Vec<_> = SeriesColumn::names().collect();
+                    all.iter().find(|column| column.name() == name).cloned().ok_or_else(|| {
+                        let known: Vec<_> = all.iter().map(SeriesColumn::name).collect();
                         let wanted = format!("a column is one of {}", known.join(", "));
                         file.mistake("series.columns", &format!("{name:?}"), &wanted)
                     })
@@ -91,7 +92,7 @@ impl Series {
             false => SeriesWriter::new(file, columns, volume),
         };
         let writer = match writer {
-            Ok(writer) => writer.after(kept.and_then(|kept| kept.last)),
+            Ok(writer) => writer.after(kept.and_then(|kept| kept.last.clone())),
             Err(source) => return Err(OutputError::Write { path, source }),
         };
         let pace = Pace::new(world, course, every, start, kept.map(|kept| kept.pace));

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use carom::contact::Surface;
-use carom::engine::{Collisions, World};
+use carom::engine::{Collisions, PartTotals, World};
 use carom::motion::Integrator;
 use carom::observe::{
     AngularMomentum, Energy, Momentum, StateHash, Statistic, Temperature, Totals, collision_rate,
@@ -52,6 +52,9 @@ pub struct Setup {
     pub gravity: [f64; 3],
     /// How many fixed parts there are.
     pub fixed_parts: usize,
+    /// What they are called.
+    #[serde(skip)]
+    pub part_names: Vec<Option<String>>,
     /// Whether space is periodic.
     pub periodic: bool,
     /// The box of a periodic space, length.
@@ -81,6 +84,7 @@ impl Setup {
             surface: scene.surface,
             gravity: scene.gravity.cast().to_array(),
             fixed_parts: scene.surroundings.len(),
+            part_names: scene.part_names.clone(),
             periodic: scene.periodic.is_some(),
             space: scene.periodic.map(|space| Corners {
                 lower: space.lower.to_array().map(shortest),
@@ -112,6 +116,8 @@ pub struct Work {
     pub equilibration: f64,
     /// What has added up since then.
     pub measured: Reading,
+    /// The same of each part that is counted apart.
+    pub parts: Vec<PartTotals>,
     /// Means with their errors.
     pub statistics: BTreeMap<&'static str, Statistic>,
     /// Mean translational temperature of what was measured; `None` for fewer than two
@@ -123,6 +129,27 @@ pub struct Work {
     pub setup_seconds: f64,
     /// Wall time while it ran, seconds.
     pub engine_seconds: f64,
+}
+
+/// What a part of the surroundings did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartSummary {
+    /// Its index in the scene.
+    pub index: u32,
+    /// What it is called.
+    pub name: Option<String>,
+    /// Collisions counted.
+    pub collisions: u64,
+    /// Its impulse on the bodies, mass × length per time.
+    pub impulse: [f64; 3],
+}
+
+impl PartSummary {
+    fn new(totals: &PartTotals, names: &[Option<String>]) -> Self {
+        let PartTotals { part, collisions, impulse, .. } = *totals;
+        let name = names.get(part as usize).cloned().flatten();
+        Self { index: part, name, collisions, impulse }
+    }
 }
 
 /// The three kinds of energy.
@@ -200,6 +227,9 @@ pub struct Summary {
     pub equilibrate: Option<f64>,
     /// Collisions counted.
     pub collisions: Collisions,
+    /// What each part did that is counted apart.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartSummary>,
     /// Energy, mass × length² per time².
     pub energy: EnergySummary,
     /// Momentum, mass × length per time.
@@ -247,6 +277,7 @@ impl Work {
             earlier_steps: 0,
             equilibration: 0.0,
             measured: Reading::default(),
+            parts: world.parts(),
             statistics: BTreeMap::new(),
             mean_temperature: None,
             fall: 0.0,
@@ -277,6 +308,11 @@ impl Summary {
             time,
             steps,
             collisions,
+            parts: work
+                .parts
+                .iter()
+                .map(|totals| PartSummary::new(totals, &setup.part_names))
+                .collect(),
             energy: EnergySummary::new(&setup, &before.energy, &after.energy, work),
             momentum: MomentumSummary::new(&setup, before.momentum, after.momentum, work),
             angular_momentum: AngularMomentumSummary::new(
@@ -316,7 +352,9 @@ impl Summary {
         let momentum = &self.momentum;
         let shares = [momentum.from_surroundings, momentum.from_gravity, momentum.balance_error];
         let gas = self.temperature.map(|gas| [gas.translational, gas.rotational]);
+        let is_whole = |part: &PartSummary| all(&part.impulse);
         let figures = [
+            ("impulse of a part", self.parts.iter().all(is_whole)),
             ("time", self.time.is_finite()),
             ("energy", all(&[energy.initial, energy.end])),
             ("energy", all(&parts(&energy.parts)) && all(&parts(&energy.initial_parts))),

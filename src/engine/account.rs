@@ -3,7 +3,7 @@
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
-use super::Collisions;
+use super::{Collisions, PartTotals};
 use crate::compensated::ExactSum;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -64,8 +64,38 @@ pub struct Account {
     pub collisions: Collisions,
     pub effort: Effort,
     virial: ExactSum,
+    /// Of the parts of the surroundings that are not counted apart.
     impulse: [ExactSum; 3],
+    /// Of those that are; as many as have been met.
+    parts: Vec<PartSum>,
     path: ExactSum,
+}
+
+/// What collisions with one part of the surroundings add up to.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+pub struct PartSum {
+    collisions: u64,
+    impulse: [ExactSum; 3],
+}
+
+impl PartSum {
+    /// What is added up so far, of a part.
+    pub fn totals(&self, part: u32) -> PartTotals {
+        let impulse = self.impulse.each_ref().map(ExactSum::value);
+        PartTotals { part, collisions: self.collisions, impulse }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.collisions = self.collisions.wrapping_add(other.collisions);
+        merge(&mut self.impulse, &other.impulse);
+    }
+}
+
+fn merge(sums: &mut [ExactSum; 3], others: &[ExactSum; 3]) {
+    for (sum, other) in sums.iter_mut().zip(others) {
+        sum.merge(other);
+    }
 }
 
 impl Account {
@@ -77,13 +107,36 @@ impl Account {
         self.virial.add(virial(normal, offset));
     }
 
-    /// Counts a collision with something fixed, by the impulse on the body.
+    /// Counts a collision with something fixed, by the impulse on the body and the part's
+    /// counter.
     #[inline(always)]
-    pub fn surroundings<T: Real>(&mut self, impulse: Vec3<T>) {
+    pub fn surroundings<T: Real>(&mut self, impulse: Vec3<T>, counter: Option<usize>) {
         self.collisions.surroundings += 1;
-        for (sum, j) in self.impulse.iter_mut().zip(impulse.to_array()) {
+        self.add_impulse(impulse, counter, 1);
+    }
+
+    /// Adds to the sums of a counter, and to its count, which may wrap.
+    #[inline(always)]
+    fn add_impulse<T: Real>(&mut self, impulse: Vec3<T>, counter: Option<usize>, count: u64) {
+        let sums = match counter {
+            None => &mut self.impulse,
+            Some(counter) => {
+                let part = self.part(counter);
+                part.collisions = part.collisions.wrapping_add(count);
+                &mut part.impulse
+            }
+        };
+        for (sum, j) in sums.iter_mut().zip(impulse.to_array()) {
             sum.add(j.to_f64());
         }
+    }
+
+    #[inline(always)]
+    fn part(&mut self, counter: usize) -> &mut PartSum {
+        if counter >= self.parts.len() {
+            self.parts.resize_with(counter + 1, PartSum::default);
+        }
+        &mut self.parts[counter]
     }
 
     /// Adds the length of a flight that has ended.
@@ -99,11 +152,9 @@ impl Account {
     }
 
     /// Takes a collision with something fixed back.
-    pub fn undo_surroundings<T: Real>(&mut self, impulse: Vec3<T>) {
+    pub fn undo_surroundings<T: Real>(&mut self, impulse: Vec3<T>, counter: Option<usize>) {
         self.collisions.surroundings = self.collisions.surroundings.wrapping_sub(1);
-        for (sum, j) in self.impulse.iter_mut().zip(impulse.to_array()) {
-            sum.add(-j.to_f64());
-        }
+        self.add_impulse(-impulse, counter, u64::MAX);
     }
 
     /// Takes the end of a flight back.
@@ -123,8 +174,9 @@ impl Account {
         self.effort.undone += other.effort.undone;
         self.virial.merge(&other.virial);
         self.path.merge(&other.path);
-        for (sum, other) in self.impulse.iter_mut().zip(&other.impulse) {
-            sum.merge(other);
+        merge(&mut self.impulse, &other.impulse);
+        for (counter, other) in other.parts.iter().enumerate() {
+            self.part(counter).merge(other);
         }
     }
 
@@ -133,12 +185,19 @@ impl Account {
         self.path.value()
     }
 
+    /// Of the parts of the surroundings that are counted apart, by their counters.
+    pub fn parts(&self) -> &[PartSum] {
+        &self.parts
+    }
+
     /// What is added up so far.
     pub fn totals(&self) -> Totals {
+        let mut impulse = self.impulse.clone();
+        self.parts.iter().for_each(|part| merge(&mut impulse, &part.impulse));
         Totals {
             collisions: self.collisions,
             virial: self.virial.value(),
-            impulse: self.impulse.each_ref().map(ExactSum::value),
+            impulse: impulse.each_ref().map(ExactSum::value),
         }
     }
 }

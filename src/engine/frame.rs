@@ -10,7 +10,7 @@ use super::account::{Effort, Totals};
 use super::interface::{Engine, EventEngine, StepEngine, Stretch};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
-use super::{EngineError, Event, Listener, Partner, Plan};
+use super::{EngineError, Event, Listener, PartTotals, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
 use crate::compensated::two_sum;
@@ -265,6 +265,15 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
             virial: virial * power(mass + 2 * length - time),
             impulse: impulse.map(|impulse| impulse * power(mass + length - time)),
         }
+    }
+
+    fn parts(&self) -> Vec<PartTotals> {
+        let Frame { length, time, mass, .. } = self.frame;
+        let mut parts = self.engine.parts();
+        for part in &mut parts {
+            part.impulse = part.impulse.map(|impulse| impulse * power(mass + length - time));
+        }
+        parts
     }
 
     fn bodies(&self) -> Bodies<T> {

@@ -8,7 +8,7 @@ use core::fmt::Debug;
 use super::account::{Effort, Totals};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
-use super::{EngineError, Listener, Plan};
+use super::{EngineError, Listener, PartTotals, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::vec3::Vec3;
@@ -26,6 +26,10 @@ pub trait Engine<T: Real>: Debug + Send + Sync {
 
     /// What is added up over the collisions so far.
     fn totals(&self) -> Totals;
+
+    /// What is added up over the collisions with each part of the surroundings that is
+    /// counted apart.
+    fn parts(&self) -> Vec<PartTotals>;
 
     /// The bodies now, in the scene's order.
     fn bodies(&self) -> Bodies<T>;

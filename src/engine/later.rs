@@ -11,14 +11,14 @@ use super::handles::Handles;
 use super::interface::{Engine, EventEngine, StepEngine, Stretch};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, SavedLater, SavedStart, Snapshot};
-use super::{Collisions, EngineError, Event, Listener, Plan};
+use super::{Collisions, EngineError, Event, Listener, PartTotals, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
 
 /// What had passed and added up before.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub(super) struct Elapsed {
     pub time: f64,
@@ -26,13 +26,15 @@ pub(super) struct Elapsed {
     pub collisions: Collisions,
     pub virial: f64,
     pub impulse: [f64; 3],
+    pub parts: Vec<PartTotals>,
 }
 
 impl Elapsed {
     /// Of an engine that has come so far.
     pub fn of<T: Real>(engine: &(impl Engine<T> + ?Sized), steps: u64) -> Self {
         let Totals { collisions, virial, impulse } = engine.totals();
-        Self { time: engine.time(), steps, collisions, virial, impulse }
+        let parts = engine.parts();
+        Self { time: engine.time(), steps, collisions, virial, impulse, parts }
     }
 
     /// An event at its time since the start of the run, which is not after `last`.
@@ -111,6 +113,11 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
         }
     }
 
+    fn parts(&self) -> Vec<PartTotals> {
+        let now = self.engine.parts();
+        now.iter().zip(&self.elapsed.parts).map(|(now, before)| now.after(before)).collect()
+    }
+
     fn bodies(&self) -> Bodies<T> {
         self.engine.bodies()
     }
@@ -119,7 +126,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
     fn save(&self) -> Snapshot {
         let (gravity, bodies) = &self.start;
         let later = SavedLater {
-            elapsed: self.elapsed,
+            elapsed: self.elapsed.clone(),
             asked: self.asked,
             start: SavedStart::of(*gravity, bodies),
             // The world knows them.
@@ -131,7 +138,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
     #[cfg(feature = "files")]
     fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
         if let Some(later) = &saved.later {
-            (self.elapsed, self.asked) = (later.elapsed, later.asked);
+            (self.elapsed, self.asked) = (later.elapsed.clone(), later.asked);
         }
         self.engine.restore(saved)
     }

@@ -35,7 +35,7 @@ use super::interface::StepEngine;
 use super::later::{Elapsed, Later};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
-use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, Plan};
+use super::{Collisions, Compiled, EngineError, Event, Execution, Listener, PartTotals, Plan};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{MOST_STEPS, Scene};
@@ -360,6 +360,24 @@ impl<T: Real> Stepped<T> {
     #[must_use]
     pub fn collisions(&self) -> Collisions {
         self.engine.totals().collisions
+    }
+
+    /// What the collisions with each part of the surroundings have added up to: with those
+    /// that have a name, and with all where there are no more than 64.
+    ///
+    /// ```
+    /// # use carom::{Plane, Scene, Sphere, Stepped};
+    /// let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5).velocity([0.0, 0.0, -1.0]);
+    /// let floor = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+    /// let scene = Scene::<f64>::builder().dt(0.125).surroundings(floor).sphere(ball).build()?;
+    /// let mut world = Stepped::new(scene)?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.parts()[0].collisions, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn parts(&self) -> Vec<PartTotals> {
+        self.engine.parts()
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the

@@ -6,7 +6,9 @@ use super::handles::Handles;
 use super::later::Elapsed;
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, SavedLater, Snapshot};
-use super::{Collisions, Compiled, EngineError, Event, EventDriven, Execution, Plan, Stepped};
+use super::{
+    Collisions, Compiled, EngineError, Event, EventDriven, Execution, PartTotals, Plan, Stepped,
+};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
@@ -84,7 +86,7 @@ impl<T: Compiled> World<T> {
                     return Err(misfit(Misfit("bodies")));
                 }
                 let scene = Scene { gravity, bodies, ..scene };
-                Self::later(scene, execution, *elapsed, handles.clone())?
+                Self::later(scene, execution, elapsed.clone(), handles.clone())?
             }
         };
         let restored = match &mut world {
@@ -333,6 +335,29 @@ impl<T: Real> World<T> {
         match self {
             Self::Stepped(world) => world.for_each_event(duration, on_event),
             Self::EventDriven(world) => world.for_each_event(duration, on_event),
+        }
+    }
+
+    /// What the collisions with each part of the surroundings have added up to: with those
+    /// that have a name, and with all where there are no more than 64.
+    ///
+    /// ```
+    /// # use carom::{Execution, Plane, Scene, Sphere};
+    /// # use carom::engine::World;
+    /// # use carom::scene::EngineKind;
+    /// let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5).velocity([0.0, 0.0, -1.0]);
+    /// let floor = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+    /// let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).surroundings(floor).sphere(ball).build()?;
+    /// let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(1.0)?;
+    /// assert_eq!(world.parts()[0].collisions, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn parts(&self) -> Vec<PartTotals> {
+        match self {
+            Self::Stepped(world) => world.parts(),
+            Self::EventDriven(world) => world.parts(),
         }
     }
 

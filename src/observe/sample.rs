@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Energy, Images, Momentum, Temperature, collision_rate, compressibility, total_mass};
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
-use crate::engine::{Collisions, World};
+use crate::engine::{Collisions, PartTotals, World};
 use crate::real::Real;
 
 /// What is measured of a world at one time. Rates and the pressure are of the time
@@ -26,7 +26,7 @@ use crate::real::Real;
 /// assert!(end.pressure_since(&start, volume) > Some(0.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 #[non_exhaustive]
 pub struct Sample {
@@ -49,6 +49,9 @@ pub struct Sample {
     pub virial: f64,
     /// The impulse of the surroundings since the start, mass × length per time.
     pub impulse: [f64; 3],
+    /// What the parts of the surroundings that are counted apart have done since the start,
+    /// in the order of the scene.
+    pub parts: Vec<PartTotals>,
 }
 
 impl Sample {
@@ -66,11 +69,12 @@ impl Sample {
             collisions: world.collisions(),
             virial: world.virial(),
             impulse: world.impulse_from_surroundings(),
+            parts: world.parts(),
         }
     }
 
     /// Time since an earlier sample; `None` if there was none.
-    fn elapsed(&self, earlier: &Self) -> Option<f64> {
+    pub(crate) fn elapsed(&self, earlier: &Self) -> Option<f64> {
         Some(self.time - earlier.time).filter(|elapsed| *elapsed > 0.0)
     }
 
@@ -94,6 +98,13 @@ impl Sample {
     pub fn force_since(&self, earlier: &Self) -> Option<[f64; 3]> {
         let elapsed = self.elapsed(earlier)?;
         Some(core::array::from_fn(|k| (self.impulse[k] - earlier.impulse[k]) / elapsed))
+    }
+
+    /// What a part of the surroundings has done since the start, if it is counted apart.
+    #[must_use]
+    pub fn part(&self, part: u32) -> Option<&PartTotals> {
+        let place = self.parts.binary_search_by_key(&part, |totals| totals.part);
+        place.ok().map(|place| &self.parts[place])
     }
 
     /// The mean translational temperature since an earlier sample, by both ends.

@@ -1,8 +1,10 @@
 //! Time series: figures of a run at times, as comma-separated values.
 
+use std::borrow::Cow;
 use std::io;
 
 use super::{CsvLine, as_io, csv_writer};
+use crate::engine::PartTotals;
 use crate::observe::Sample;
 
 /// What a row is made of.
@@ -13,22 +15,63 @@ struct Row<'a> {
     volume: Option<f64>,
 }
 
-/// A column of a time series.
-#[derive(Clone, Copy, Debug)]
-pub struct SeriesColumn {
-    name: &'static str,
-    figure: fn(&Row<'_>) -> Option<f64>,
+impl Row<'_> {
+    /// What a part did up to now, and up to the row before and since what time.
+    fn part(&self, part: u32) -> Option<(&PartTotals, Option<(&PartTotals, f64)>)> {
+        let before = self.before.and_then(|before| before.part(part).zip(self.now.elapsed(before)));
+        Some((self.now.part(part)?, before))
+    }
 }
+
+/// A column of a time series.
+#[derive(Clone, Debug)]
+pub struct SeriesColumn {
+    name: Cow<'static, str>,
+    figure: Figure,
+    /// Whether it is a whole number.
+    is_count: bool,
+}
+
+/// What is in a column.
+#[derive(Clone, Copy, Debug)]
+enum Figure {
+    Of(fn(&Row<'_>) -> Option<f64>),
+    /// Of a part: what it did up to now, and since the row before.
+    OfPart(u32, PartFigure),
+}
+
+/// A figure of what a part did up to now, and up to the row before and since what time.
+type PartFigure = fn(&PartTotals, Option<(&PartTotals, f64)>) -> Option<f64>;
 
 /// Names a column and says what is in it.
 macro_rules! columns {
     ($($name:literal: $figure:expr,)*) => {
-        &[$(SeriesColumn { name: $name, figure: $figure }),*]
+        &[$(($name, $figure)),*]
     };
 }
 
-/// All columns.
-const COLUMNS: &[SeriesColumn] = columns! {
+/// The columns of counts.
+const COUNTS: [&str; 3] = ["pairs", "surroundings", "collisions"];
+
+/// What a column of a part is called, behind the name of the part.
+const PART_COLUMNS: &[(&str, PartFigure)] = columns! {
+    "collisions": |now, _| Some(now.collisions as f64),
+    "impulse_x": |now, _| Some(now.impulse[0]),
+    "impulse_y": |now, _| Some(now.impulse[1]),
+    "impulse_z": |now, _| Some(now.impulse[2]),
+    "force_x": |now, since| force(now, since, 0),
+    "force_y": |now, since| force(now, since, 1),
+    "force_z": |now, since| force(now, since, 2),
+};
+
+/// The force of a part on the bodies since the row before, in the mean.
+fn force(now: &PartTotals, since: Option<(&PartTotals, f64)>, axis: usize) -> Option<f64> {
+    let (before, elapsed) = since?;
+    Some(now.since(before).impulse[axis] / elapsed)
+}
+
+/// What the columns of the whole are called.
+const COLUMNS: &[(&str, fn(&Row<'_>) -> Option<f64>)] = columns! {
     "time": |row| Some(row.now.time),
     "energy": |row| Some(row.now.energy.total()),
     "kinetic": |row| Some(row.now.energy.kinetic()),
@@ -68,16 +111,44 @@ impl SeriesColumn {
     /// assert_eq!(SeriesColumn::names().next(), Some("time"));
     /// ```
     pub fn names() -> impl Iterator<Item = &'static str> {
-        COLUMNS.iter().map(|column| column.name)
+        COLUMNS.iter().map(|(name, _)| *name)
     }
 
-    /// All columns.
+    /// All columns, and those of parts with these names, if they have any, in the order of
+    /// the scene: `NAME.collisions` and `NAME.impulse_x` since the start, `NAME.force_x` since
+    /// the row before, on the bodies; and so `y` and `z`.
+    ///
+    /// ```
+    /// use carom::output::SeriesColumn;
+    /// let columns = SeriesColumn::all(["floor".into(), None]);
+    /// assert_eq!(columns.last().map(SeriesColumn::name), Some("floor.force_z"));
+    /// ```
     #[must_use]
-    pub fn all() -> Vec<Self> {
-        COLUMNS.to_vec()
+    pub fn all<'a>(part_names: impl IntoIterator<Item = Option<&'a str>>) -> Vec<Self> {
+        let of_part = |(part, name): (u32, Option<&str>)| {
+            let columns = PART_COLUMNS.iter().filter_map(move |(column, figure)| {
+                let name = format!("{}.{column}", name?);
+                Some(Self::new(name.into(), Figure::OfPart(part, *figure), column))
+            });
+            columns.collect::<Vec<_>>()
+        };
+        let whole = COLUMNS
+            .iter()
+            .map(|(name, figure)| Self::new((*name).into(), Figure::Of(*figure), name));
+        whole.chain((0..).zip(part_names).flat_map(of_part)).collect()
     }
 
-    /// The column of that name, if there is one.
+    fn new(name: Cow<'static, str>, figure: Figure, kind: &str) -> Self {
+        Self { name, figure, is_count: COUNTS.contains(&kind) }
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The column of that name, if there is one, of the whole.
     ///
     /// ```
     /// use carom::output::SeriesColumn;
@@ -86,7 +157,17 @@ impl SeriesColumn {
     /// ```
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        COLUMNS.iter().find(|column| column.name == name).copied()
+        Self::all([]).into_iter().find(|column| column.name == name)
+    }
+
+    fn value(&self, row: &Row<'_>) -> Option<f64> {
+        match self.figure {
+            Figure::Of(figure) => figure(row),
+            Figure::OfPart(part, figure) => {
+                let (now, since) = row.part(part)?;
+                figure(now, since)
+            }
+        }
     }
 }
 
@@ -129,7 +210,7 @@ impl<W: io::Write> SeriesWriter<W> {
     /// If the output takes nothing.
     pub fn new(output: W, columns: Vec<SeriesColumn>, volume: Option<f64>) -> io::Result<Self> {
         let mut writer = csv_writer(output);
-        writer.write_record(columns.iter().map(|column| column.name)).map_err(as_io)?;
+        writer.write_record(columns.iter().map(SeriesColumn::name)).map_err(as_io)?;
         Ok(Self { writer, line: CsvLine::default(), columns, volume, before: None })
     }
 
@@ -158,7 +239,7 @@ impl<W: io::Write> SeriesWriter<W> {
     /// The sample of the last row.
     #[must_use]
     pub fn last(&self) -> Option<Sample> {
-        self.before
+        self.before.clone()
     }
 
     /// Writes a sample, which is later than the one before.
@@ -169,15 +250,13 @@ impl<W: io::Write> SeriesWriter<W> {
     pub fn row(&mut self, sample: Sample) -> io::Result<()> {
         let row = Row { now: &sample, before: self.before.as_ref(), volume: self.volume };
         for column in &self.columns {
-            match (column.figure)(&row) {
+            match column.value(&row) {
                 None => self.line.empty(1),
                 Some(value) if !value.is_finite() => {
                     let message = format!("{} is no longer finite", column.name);
                     return Err(io::Error::new(io::ErrorKind::InvalidData, message));
                 }
-                Some(value) if ["pairs", "surroundings"].contains(&column.name) => {
-                    self.line.shown(value);
-                }
+                Some(value) if column.is_count => self.line.shown(value),
                 Some(value) => self.line.numbers([value]),
             }
         }

@@ -222,6 +222,31 @@ impl<T: Real> SceneBuilder<T> {
     #[must_use]
     pub fn surroundings(mut self, shape: impl Into<Shape<T>>) -> Self {
         self.description.surroundings.push(GivenShape::rounded(shape.into()));
+        self.description.part_names.push(None);
+        self
+    }
+
+    /// Adds something fixed in space under a name, by which figures of it are called.
+    ///
+    /// ```
+    /// use carom::{Plane, Scene, Sphere};
+    ///
+    /// let scene = Scene::<f64>::builder()
+    ///     .named_surroundings("floor", Plane::new([0.0; 3], [0.0, 0.0, 1.0]))
+    ///     .sphere(Sphere::new([0.0, 0.0, 2.0]).radius(0.5))
+    ///     .build()?;
+    /// assert_eq!(scene.part_names[0].as_deref(), Some("floor"));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn named_surroundings(
+        mut self,
+        name: impl Into<String>,
+        shape: impl Into<Shape<T>>,
+    ) -> Self {
+        self = self.surroundings(shape);
+        self.description.part_names.pop();
+        self.description.part_names.push(Some(name.into()));
         self
     }
 

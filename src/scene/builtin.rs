@@ -59,6 +59,12 @@ pub fn builtin_scenes() -> &'static [BuiltinScene] {
         "pi": "a heavy ball, a light one and a wall: 314,159 collisions",
         "wedge": "a ball between two slopes under gravity, never at rest",
         "giant-in-dust": "a sphere among 5,000 that are a hundred times smaller",
+        "galton-board": "2,000 balls fall through ten rows of pins between two panes",
+        "funnel": "rough balls fall through a funnel into a container",
+        "drum": "rough balls in a drum that lies on its side",
+        "sinai-billiard": "a ball between four walls, with a post in the middle",
+        "ball-in-torus": "a ball in a torus, which keeps its angular momentum about the axis",
+        "ball-in-tube": "a rough ball in a vertical tube, which comes up again",
         "free-flight": "100,000 spinning spheres that meet nothing",
     }
 }

@@ -3,6 +3,7 @@
 //! [`super::check_bodies`].
 
 use core::ops::Range;
+use std::collections::HashMap;
 
 use super::description::{Description, Entry, Given, Periodicity};
 use super::error::{Keyed, Problem, SceneError};
@@ -30,6 +31,8 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
     if let Periodicity::Box(Given { rounded: PeriodicBox { lower, upper }, .. }) = asked.periodic {
         corners(lower, upper).map_err(|mistake| origin.error_in("periodic", mistake))?;
     }
+    part_names(&asked.part_names)
+        .map_err(|(part, mistake)| origin.error_in(&format!("surroundings[{part}]"), mistake))?;
     let is_periodic = !matches!(asked.periodic, Periodicity::Open);
     for (index, given) in asked.surroundings.iter().enumerate() {
         let entry = format!("surroundings[{index}]");
@@ -46,6 +49,23 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
                 format!("a {what} without end leaves the box; give it a `height` that fits into it")
             };
             return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
+        }
+    }
+    Ok(())
+}
+
+/// Names, each of one part.
+fn part_names(names: &[Option<String>]) -> Result<(), (usize, Mistake)> {
+    const KEY: &str = "name";
+    let mut parts = HashMap::new();
+    for (part, name) in names.iter().enumerate().filter_map(|(k, name)| Some((k, name.as_ref()?))) {
+        if name.is_empty() || name.chars().any(char::is_control) {
+            let wanted = "a name has letters, and no line breaks or other control characters";
+            return Err((part, Mistake::value(KEY, name, wanted)));
+        }
+        if let Some(other) = parts.insert(name, part) {
+            let wanted = format!("surroundings[{other}] is called so already");
+            return Err((part, Mistake::value(KEY, name, wanted)));
         }
     }
     Ok(())

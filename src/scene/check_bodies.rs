@@ -7,7 +7,7 @@ use super::check::{Found, figures};
 use super::description::Description;
 use super::error::{Problem, SceneError};
 use super::obstacles::{Misplaced, Obstacles};
-use super::settings::{Encounters, EngineKind};
+use super::settings::{Encounters, EngineKind, Impact};
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::mat3::Mat3;
 use crate::real::Real;
@@ -125,6 +125,9 @@ pub(super) fn bodies<T: Real>(
         if let Some((_, found)) = misplaced {
             return Err(of_entry(found));
         }
+        thin(asked, &shapes, &bodies, &allowance).map_err(|(index, problem)| {
+            asked.origin.error(format!("surroundings[{index}]"), problem)
+        })?;
         room(&shapes, asked.gravity, &bodies, &allowance).map_err(|(index, problem)| {
             asked.origin.error(format!("surroundings[{index}]"), problem)
         })?;
@@ -265,6 +268,36 @@ fn surroundings<T: Real>(
         ),
     };
     Some((shape, (body, "", Problem::Misplaced { body, beyond, depth, wanted })))
+}
+
+/// With impacts at the end of a step, a body must not fly through something thin in one.
+fn thin<T: Real>(
+    asked: &Description<T>,
+    shapes: &[Shape<T>],
+    bodies: &Bodies<T>,
+    allowance: &Allowance<'_>,
+) -> Result<(), (usize, Problem)> {
+    let (EngineKind::Stepped, Impact::EndOfStep, Some(dt)) =
+        (asked.engine, asked.stepped.impact, asked.stepped.dt)
+    else {
+        return Ok(());
+    };
+    let Some(part) = shapes.iter().position(Shape::is_thin) else { return Ok(()) };
+    let fallen = 0.5 * asked.gravity.cast::<f64>().length() * dt;
+    for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
+        let way = (bodies.velocity_of(body).cast::<f64>().length() + fallen) * dt;
+        let radius = bodies.radius.of(body).to_f64();
+        if way > radius {
+            let reason = format!(
+                "it is thin, and body {body} flies {way:.3} in a step, farther than its radius, \
+                 {radius:?}, and could jump through it; set impact = \"sub-step\", or dt to {:.1e} \
+                 or less",
+                dt * radius / way
+            );
+            return Err((part, Problem::conflict("impact = \"end-of-step\"", reason)));
+        }
+    }
+    Ok(())
 }
 
 /// Between two faces that look at each other, a body has room to move if it does

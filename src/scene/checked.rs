@@ -53,6 +53,8 @@ pub struct Scene<T: Real> {
     pub periodic: Option<PeriodicBox<T>>,
     /// What is fixed in space, in the order of the file.
     pub surroundings: Vec<Shape<T>>,
+    /// What these parts are called, as many; `None` without a name.
+    pub part_names: Vec<Option<String>>,
     /// What only the stepped engine asks.
     pub stepped: SteppedSettings,
     /// The spheres, in the order of the file.
@@ -98,6 +100,7 @@ impl<T: Real> Scene<T> {
                 .periodic
                 .map_or(Periodicity::Open, |space| Periodicity::Box(GivenBox::rounded(space))),
             surroundings: self.surroundings.iter().cloned().map(GivenShape::rounded).collect(),
+            part_names: self.part_names.clone(),
             stepped: self.stepped,
             entries: vec![Entry::Ready(Box::new(bodies))],
             ..Description::new(self.name.clone(), Origin::code(&self.name))
@@ -115,6 +118,7 @@ impl<T: Real> Scene<T> {
             encounters: self.encounters,
             periodic: self.periodic,
             surroundings: self.surroundings.clone(),
+            part_names: self.part_names.clone(),
             stepped: self.stepped,
             bodies: Bodies::none(),
         }
@@ -158,6 +162,7 @@ impl<T: Real> Scene<T> {
             encounters: asked.encounters,
             periodic,
             surroundings: asked.surroundings.into_iter().map(|given| given.rounded).collect(),
+            part_names: asked.part_names,
             stepped: asked.stepped,
             bodies,
         })

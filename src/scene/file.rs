@@ -54,7 +54,7 @@ use crate::vec3::Vec3;
 /// `[[surroundings]]` have a `shape` and its keys: `"plane"`, `"box"`, `"sphere"`,
 /// `"triangle"`, `"capsule"`, `"cylinder"`, `"cone"`, `"disc"`, `"tube"` and `"torus"`, each
 /// of which has a type in [`surroundings`](crate::surroundings) that tells its keys. All may
-/// have a `scale`, a `rotation` with `axis`, `angle` in rad and `center`, and a
+/// have a `name`, a `scale`, a `rotation` with `axis`, `angle` in rad and `center`, and a
 /// `translation`, which take effect in this order.
 ///
 /// | `[[spheres]]` | Default | |
@@ -295,6 +295,7 @@ impl SceneFile {
         };
         for (index, raw) in self.raw.surroundings.iter().enumerate() {
             asked.surroundings.push(GivenShape::exact(fixed::shape(&origin, index, raw)?));
+            asked.part_names.push(raw.name.clone());
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
             let entry = match &raw.file {
@@ -304,6 +305,20 @@ impl SceneFile {
             asked.entries.push(entry);
         }
         Scene::new(asked)
+    }
+
+    /// What the parts of the surroundings are called, in the order of the file.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    ///
+    /// let text = "[[surroundings]]\nshape = \"plane\"\nname = \"floor\"";
+    /// let names: Vec<_> = SceneFile::parse("named", text)?.part_names().collect();
+    /// assert_eq!(names, [Some("floor")]);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    pub fn part_names(&self) -> impl Iterator<Item = Option<&str>> {
+        self.raw.surroundings.iter().map(|raw| raw.name.as_deref())
     }
 
     /// The files that the scene is read from besides its own.

@@ -105,6 +105,10 @@ impl<T: Real> Solid<T> for Disc<T> {
         vec![Band::thin(self.axis, slant).into()]
     }
 
+    fn is_thin(&self) -> bool {
+        true
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.axis.around(T::ZERO, self.radius).into()
     }

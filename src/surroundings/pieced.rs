@@ -101,7 +101,7 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
     fn by_near_pieces(&self, flight: &FreeFlight<T>, start: Start, gap: T) -> Option<T> {
         let slack = self.slack(flight);
         let size = T::from_f64(self.farthest());
-        let near = T::whole(16) * flight.rounding(T::ZERO, size);
+        let near = T::whole(4) * flight.rounding(T::ZERO, size);
         let mut first: Option<T> = None;
         self.each_piece(|piece| {
             let own = piece.gap(flight.center, flight.radius);

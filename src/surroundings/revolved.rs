@@ -254,6 +254,10 @@ impl<T: Real> Solid<T> for Revolved<T> {
         Chain::all(self.axis, &lines, self.inside).into_iter().map(Feature::from).collect()
     }
 
+    fn is_thin(&self) -> bool {
+        !self.is_closed
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.around().into()
     }

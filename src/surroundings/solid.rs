@@ -77,6 +77,11 @@ pub(crate) trait Solid<T: Real>: Clone {
         self.interior().is_some()
     }
 
+    /// Whether it has no inside: what jumps into it comes out on its other side.
+    fn is_thin(&self) -> bool {
+        false
+    }
+
     /// The corners of the box around the hollow, if spheres are inside of one that ends.
     fn interior(&self) -> Option<[Vec3<T>; 2]> {
         None
@@ -235,6 +240,13 @@ macro_rules! solids {
             pub(crate) fn is_container(&self) -> bool {
                 match self {
                     $(Self::$solid(solid) => solid.is_container(),)*
+                }
+            }
+
+            /// As [`Solid::is_thin`].
+            pub(crate) fn is_thin(&self) -> bool {
+                match self {
+                    $(Self::$solid(solid) => solid.is_thin(),)*
                 }
             }
 

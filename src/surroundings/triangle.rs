@@ -85,6 +85,10 @@ impl<T: Real> Solid<T> for Triangle<T> {
         vec![Facet::new(self.corners).into()]
     }
 
+    fn is_thin(&self) -> bool {
+        true
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.corners.into()
     }

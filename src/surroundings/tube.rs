@@ -90,6 +90,10 @@ impl<T: Real> Solid<T> for Tube<T> {
         vec![Band::thin(self.axis, slant).into()]
     }
 
+    fn is_thin(&self) -> bool {
+        true
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         let [base, top] = self.radii;
         joined(self.axis.around(T::ZERO, base), self.axis.around(self.height, top)).into()

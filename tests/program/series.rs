@@ -76,6 +76,39 @@ fn the_walls_force_is_what_changes_the_momentum() {
 }
 
 #[test]
+fn parts_with_names_have_columns_and_lines_of_their_own() {
+    let folder = Folder::with(BOX);
+    let run = "run scene.toml --engine event-driven --set surroundings[0].name=wall";
+    let series = "--series series.csv --series-every 0.25";
+    let summary = folder.says(&format!("{run} --json {series}")).summary();
+    let all = |name: &str| column(&folder, name);
+    // It is all there is.
+    for axis in ["x", "y", "z"] {
+        assert_eq!(all(&format!("wall.force_{axis}")), all(&format!("force_{axis}")));
+    }
+    assert_eq!(all("wall.force_x")[0], None);
+    assert_eq!(all("wall.collisions"), all("surroundings"));
+    let [part] = &summary["parts"].as_array().unwrap()[..] else { panic!("{summary}") };
+    assert_eq!((&part["index"], &part["name"]), (&0.into(), &"wall".into()));
+    assert_eq!(part["collisions"], summary["collisions"]["surroundings"]);
+    assert_eq!(part["impulse"], summary["momentum"]["from_surroundings"]);
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let last = all(&format!("wall.impulse_{axis}")).pop().unwrap();
+        assert_eq!(last, part["impulse"][k].as_f64());
+    }
+    let printed = folder.says(run).well();
+    assert!(printed.contains("parts") && printed.contains("  wall"), "{printed}");
+    // After a time without measurement.
+    let later = folder.says(&format!("{run} --json --set equilibrate=0.5")).summary();
+    assert_eq!(later["parts"][0]["collisions"], later["collisions"]["surroundings"]);
+    // Without a name a part has no column, and a single one no line.
+    let plain = "run scene.toml --engine event-driven";
+    assert!(!folder.says(plain).well().contains("parts"));
+    folder.says(&format!("{plain} {series}")).well();
+    assert!(!folder.read("series.csv").contains(".force_x"));
+}
+
+#[test]
 fn columns_are_chosen_by_name() {
     let with = |keys: &str| Folder::with(&format!("{FLUID}\n[series]\n{keys}\n"));
     let folder =

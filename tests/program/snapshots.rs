@@ -21,8 +21,16 @@ fn assert_same_files(folder: &Folder, one: &str, other: &str) {
     }
 }
 
-const KEYS: [&str; 7] =
-    ["state_hash", "collisions", "energy", "momentum", "time", "collision_rate", "mean_free_path"];
+const KEYS: [&str; 8] = [
+    "state_hash",
+    "collisions",
+    "parts",
+    "energy",
+    "momentum",
+    "time",
+    "collision_rate",
+    "mean_free_path",
+];
 
 #[test]
 fn a_run_cut_in_three_is_one_run() {

@@ -12,7 +12,7 @@ fn builtin(name: &str) -> SceneFile {
 
 /// The volume of the first container.
 fn volume(scene: &Scene<f64>) -> f64 {
-    match scene.surroundings[0] {
+    match &scene.surroundings[0] {
         Shape::Cuboid(cuboid) => (cuboid.upper - cuboid.lower).to_array().iter().product(),
         Shape::FixedSphere(sphere) => sphere.radius.powi(3),
         shape => panic!("{shape:?} has no volume"),

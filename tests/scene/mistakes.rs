@@ -379,6 +379,31 @@ fn round_shapes_that_cannot_be() {
     assert_starts(&message(&near), "s.toml:3: surroundings[0] is too near to the faces ");
 }
 
+/// A step at whose end impacts are looked for must be shorter than what is thin can be jumped
+/// through in.
+#[test]
+fn what_is_thin_is_not_jumped_through() {
+    let scene = |keys: &str, shape: &str| {
+        format!(
+            "[stepped]\ndt = 0.5\n{keys}\n[[surroundings]]\n{shape}\n{BALL}velocity = [0, 0, -3]\n"
+        )
+    };
+    let built = |keys: &str, shape: &str| {
+        let scene = SceneFile::parse("s.toml", &scene(keys, shape)).unwrap().build::<f64>();
+        scene.map(|_| ()).map_err(|error| error.to_string())
+    };
+    let disc = "shape = \"disc\"\ncenter = [0, 0, -5]\naxis = [0, 0, 1]\nradius = 2";
+    let solid = "shape = \"sphere\"\ncenter = [0, 0, -5]\nradius = 2";
+    assert_eq!(
+        built("impact = \"end-of-step\"", disc).unwrap_err(),
+        "s.toml:4: surroundings[0] cannot stand beside impact = \"end-of-step\": it is thin, and \
+         body 0 flies 1.500 in a step, farther than its radius, 1.0, and could jump through it; \
+         set impact = \"sub-step\", or dt to 3.3e-1 or less",
+    );
+    assert_eq!(built("impact = \"sub-step\"", disc), Ok(()));
+    assert_eq!(built("impact = \"end-of-step\"", solid), Ok(()));
+}
+
 #[test]
 fn shapes_that_cannot_be() {
     let shape = |keys: &str| message(&format!("[[surroundings]]\n{keys}\n{BALL}"));
@@ -396,7 +421,7 @@ fn shapes_that_cannot_be() {
     assert_eq!(
         shape("shape = \"plane\"\nhole = [0, 0, 1]"),
         "s.toml:4: surroundings[0].hole is not a key that means something here; known are \
-         `shape`, `point`, `normal`, `lower`, `upper`, `rotation`, `c`, `a`, `b`, `hole_radius`, `base`, `height`, `top_radius`, `center`, `axis`, `radius`, `tube_radius`, `inside`"
+         `shape`, `point`, `normal`, `lower`, `upper`, `vertices`, `a`, `b`, `apex`, `slope`, `inner`, `outer`, `base`, `half_height`, `height`, `radius`, `top_radius`, `major`, `minor`, `center`, `axis`, `profile`, `closed`, `inside`, `name`, `translation`, `rotation`, `scale`"
     );
     assert_eq!(
         shape("shape = \"sphere\"\ncenter = 3"),

@@ -177,7 +177,7 @@ fn built_in_scenes_agree_with_f64() {
             let mut file = SceneFile::builtin(builtin.name).unwrap();
             file.engine = engine;
             let dt = file.dt.unwrap();
-            let large = ["rough-gas", "free-flight", "mixture"];
+            let large = ["rough-gas", "free-flight", "mixture", "funnel", "drum"];
             let duration = match engine {
                 EngineKind::Stepped => 8.0 * dt,
                 EngineKind::EventDriven if builtin.name == "hard-sphere-fluid" => 0.2,
@@ -185,6 +185,7 @@ fn built_in_scenes_agree_with_f64() {
                 // Convex obstacles part paths quickly.
                 EngineKind::EventDriven if builtin.name == "lorentz-gas" => 0.3,
                 EngineKind::EventDriven if builtin.name == "giant-in-dust" => 0.1,
+                EngineKind::EventDriven if builtin.name == "galton-board" => 1.5,
                 _ => 2.5,
             };
             let truth = state::<DoubleDouble>(&file, duration);

@@ -12,6 +12,9 @@ const AXES: [&str; 3] = ["  x", "  y", "  z"];
 /// Bodies from which a temperature says something.
 const A_GAS: usize = 100;
 
+/// So many parts without names are printed at most.
+const FEW_PARTS: usize = 8;
+
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.heading(f)?;
@@ -20,6 +23,10 @@ impl fmt::Display for Summary {
         let gifts = self.momentum_from();
         if !gifts.is_empty() {
             writeln!(f, "{gifts}")?;
+        }
+        let parts = self.parts();
+        if !parts.is_empty() {
+            writeln!(f, "{parts}")?;
         }
         let gas = self.gas();
         if !gas.is_empty() {
@@ -159,6 +166,24 @@ impl Summary {
         for (k, axis) in AXES.iter().enumerate() {
             let given = givers.iter().map(|(_, given)| digits(given[k]));
             table.row(axis, given.chain([difference(momentum.balance_error[k])]));
+        }
+        table
+    }
+
+    /// What parts did, where they have names, or are few but more than one.
+    fn parts(&self) -> Table {
+        let mut table = Table::default();
+        let is_named = self.parts.iter().any(|part| part.name.is_some());
+        if !is_named && !(2..=FEW_PARTS).contains(&self.parts.len()) {
+            return table;
+        }
+        let heads = ["collisions", "impulse x", "y", "z"];
+        table.row("parts", heads.map(str::to_owned));
+        for part in self.parts.iter().filter(|part| !is_named || part.name.is_some()) {
+            let number = format!("{}", part.index);
+            let name = part.name.as_ref().unwrap_or(&number);
+            let counts = [grouped(part.collisions)].into_iter();
+            table.row(&format!("  {name}"), counts.chain(part.impulse.map(digits)));
         }
         table
     }

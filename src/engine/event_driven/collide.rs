@@ -61,7 +61,8 @@ pub(super) fn collide_with_feature<T: Real>(
     end_flight(setting, region, slot, &arrival, partner, (time, generation));
     let mark = next_mark(region, slot, partner, generation);
     depart(setting, region, clock, slot, &outcome.departure, mark);
-    region.worker.account.surroundings(outcome.impulse.normal + outcome.impulse.tangential);
+    let impulse = outcome.impulse.normal + outcome.impulse.tangential;
+    region.worker.account.surroundings(impulse, setting.counter(feature));
     look_ahead(setting, region, slot, nearby, time, clock.period);
     outcome
 }
@@ -210,8 +211,9 @@ pub(super) fn undo_start<T: Real>(setting: &Setting<T>, region: &mut Region<'_, 
             account.effort.undone += 1;
         }
         Made::Other => {}
-        Made::Feature(_, made) => {
-            account.undo_surroundings(made.impulse.normal + made.impulse.tangential);
+        Made::Feature(feature, made) => {
+            let impulse = made.impulse.normal + made.impulse.tangential;
+            account.undo_surroundings(impulse, setting.counter(feature));
             account.effort.undone += 1;
         }
     }

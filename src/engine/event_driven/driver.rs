@@ -18,7 +18,7 @@ use crate::engine::interface::{Engine, EventEngine, Stretch};
 use crate::engine::plan::{Plan, Turning};
 #[cfg(feature = "files")]
 use crate::engine::snapshot::{Misfit, Snapshot, State};
-use crate::engine::{EngineError, Execution, LONGEST_RUN, Listener, Order};
+use crate::engine::{EngineError, Execution, LONGEST_RUN, Listener, Order, PartTotals};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
@@ -237,6 +237,10 @@ impl<T: Real> Engine<T> for Driver<T> {
 
     fn totals(&self) -> Totals {
         self.account().totals()
+    }
+
+    fn parts(&self) -> Vec<PartTotals> {
+        self.setting.counted.totals(self.account().parts())
     }
 
     fn bodies(&self) -> Bodies<T> {

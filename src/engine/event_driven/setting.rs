@@ -5,6 +5,7 @@ use super::near::{self, Near};
 use super::search::{Search, further, searcher};
 use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
+use crate::engine::parts::Counted;
 use crate::engine::plan::{Plan, Turning};
 use crate::engine::{Execution, Order};
 use crate::motion::integrator::{Coasting, VelocityVerlet};
@@ -30,6 +31,8 @@ pub(super) struct Setting<T: Real> {
     pub features: Vec<Feature<T>>,
     /// The part of the surroundings that each feature belongs to.
     pub parts: Vec<u32>,
+    /// Which of them are counted apart.
+    pub counted: Counted,
     /// The periodic images of a feature.
     pub images: Vec<Vec3<T>>,
     /// The images of a pair besides the nearest one, and that one itself, in
@@ -55,6 +58,7 @@ pub(super) struct Setting<T: Real> {
 impl<T: Real> Setting<T> {
     /// What a scene and its plan say, and the grid of its cells, still empty.
     pub fn new(scene: Scene<T>, mut plan: Plan, execution: Execution) -> (Self, Levels<T>) {
+        let counted = Counted::of(&scene);
         let bodies = scene.bodies;
         let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
         let (features, parts) = features_of(met);
@@ -99,6 +103,7 @@ impl<T: Real> Setting<T> {
             periodic: scene.periodic,
             features,
             parts,
+            counted,
             images,
             further: further(cells.coarsest(), is_periodic),
             coarse_further: further(cells.coarsest(), is_periodic),
@@ -112,6 +117,12 @@ impl<T: Real> Setting<T> {
             plan,
         };
         (setting, cells)
+    }
+
+    /// The counter of a feature's part, if it has one.
+    #[inline(always)]
+    pub fn counter(&self, feature: u32) -> Option<usize> {
+        self.counted.counter(self.parts[feature as usize])
     }
 
     /// Centre and velocity on a flight at a time.

@@ -18,7 +18,7 @@ use crate::engine::interface::{Engine, StepEngine};
 use crate::engine::plan::{Plan, Turning};
 #[cfg(feature = "files")]
 use crate::engine::snapshot::{Misfit, Snapshot, State};
-use crate::engine::{EngineError, Execution, Listener};
+use crate::engine::{EngineError, Execution, Listener, PartTotals};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -122,6 +122,10 @@ impl<T: Real> Engine<T> for Driver<T> {
 
     fn totals(&self) -> Totals {
         self.account.totals()
+    }
+
+    fn parts(&self) -> Vec<PartTotals> {
+        self.setting.counted.totals(self.account.parts())
     }
 
     fn bodies(&self) -> Bodies<T> {

@@ -1,6 +1,7 @@
 //! Setting: what all workers read and none writes.
 
 use super::path::Path;
+use crate::engine::parts::Counted;
 use crate::engine::plan::Plan;
 use crate::engine::{EngineError, Execution};
 use crate::motion::Integrator;
@@ -30,6 +31,8 @@ pub(super) struct Setting<T: Real> {
     pub features: Vec<Feature<T>>,
     /// The part of the surroundings that each feature belongs to.
     pub parts: Vec<u32>,
+    /// Which of them are counted apart.
+    pub counted: Counted,
     pub workers: Workers,
 }
 
@@ -45,6 +48,7 @@ impl<T: Real> Setting<T> {
         let plan = Plan::new(scene, EngineKind::Stepped, execution, workers.threads());
         let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
         let (features, parts) = features_of(met);
+        let counted = Counted::of(scene);
         Ok(Self {
             dt,
             exact_dt,
@@ -55,9 +59,16 @@ impl<T: Real> Setting<T> {
             path: Path::new(plan.integrator, plan.impact, scene.gravity, dt),
             features,
             parts,
+            counted,
             workers,
             plan,
         })
+    }
+
+    /// The counter of a feature's part, if it has one.
+    #[inline(always)]
+    pub fn counter(&self, feature: u32) -> Option<usize> {
+        self.counted.counter(self.parts[feature as usize])
     }
 
     /// Whether there is anything to collide with.

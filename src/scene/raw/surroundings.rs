@@ -15,6 +15,7 @@ use crate::surroundings::{Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Valu
 pub(in crate::scene) struct RawSurroundings {
     pub(in crate::scene) shape: Option<&'static ShapeKind>,
     pub(in crate::scene) values: ShapeEntry,
+    pub(in crate::scene) name: Option<String>,
     pub(in crate::scene) translation: Option<Vector>,
     pub(in crate::scene) rotation: Option<RawRotation>,
     pub(in crate::scene) scale: Option<Number>,
@@ -42,6 +43,8 @@ pub(in crate::scene) struct RawRotation {
 
 /// What a shape's name stands under.
 const SHAPE: &str = "shape";
+/// What a part is called.
+const NAME: &str = "name";
 /// Where a shape is moved to.
 const TRANSLATION: &str = "translation";
 /// How a shape is turned.
@@ -63,7 +66,7 @@ pub(in crate::scene) static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
 /// The names of all keys.
 static KEY_NAMES: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let own = KEYS.iter().map(|key| key.name);
-    [SHAPE].into_iter().chain(own).chain([TRANSLATION, ROTATION, SCALE]).collect()
+    [SHAPE].into_iter().chain(own).chain([NAME, TRANSLATION, ROTATION, SCALE]).collect()
 });
 
 /// The names of all shapes.
@@ -73,6 +76,7 @@ static SHAPE_NAMES: LazyLock<Vec<&str>> =
 /// One of the keys.
 enum Field {
     Shape,
+    Name,
     Translation,
     Rotation,
     Scale,
@@ -91,6 +95,7 @@ impl<'de> Deserialize<'de> for Field {
             fn visit_str<E: Error>(self, name: &str) -> Result<Field, E> {
                 match name {
                     SHAPE => return Ok(Field::Shape),
+                    NAME => return Ok(Field::Name),
                     TRANSLATION => return Ok(Field::Translation),
                     ROTATION => return Ok(Field::Rotation),
                     SCALE => return Ok(Field::Scale),
@@ -147,6 +152,7 @@ impl<'de> Deserialize<'de> for RawSurroundings {
                             raw.shape = Some(shape);
                             raw.values.shape = name;
                         }
+                        Field::Name => raw.name = Some(map.next_value()?),
                         Field::Translation => raw.translation = Some(map.next_value()?),
                         Field::Rotation => raw.rotation = Some(map.next_value()?),
                         Field::Scale => raw.scale = Some(map.next_value()?),

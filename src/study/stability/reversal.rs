@@ -118,8 +118,8 @@ fn way_off<T: Studied>(scene: &Scene<T>, collisions: u64) -> Result<f64, StudyEr
     if let Some(space) = scene.periodic {
         back = back.periodic(space);
     }
-    for &shape in &scene.surroundings {
-        back = back.surroundings(shape);
+    for shape in &scene.surroundings {
+        back = back.surroundings(shape.clone());
     }
     let mut bodies = world.bodies();
     bodies.scale_motion(-T::ONE);

@@ -1,0 +1,149 @@
+//! What each part of the surroundings does: counted by both engines, in every order and on
+//! any number of threads, as their events say.
+
+use carom::engine::{Execution, Lanes, Order, PartTotals, Partner, World};
+use carom::scene::{EngineKind, Scene, SceneFile, Sphere};
+use carom::surroundings::{Cylinder, FixedSphere, Plane};
+
+/// Balls in a container with a funnel, and a plate that none comes to.
+const VESSEL: &str = r#"
+duration = 4.0
+gravity = [0.0, 0.0, -2.0]
+stepped = { dt = 0.01 }
+surface = { kind = "rough" }
+surroundings = [
+  { shape = "box", lower = [-4, -4, -4], upper = [4, 4, 4], inside = true },
+  { shape = "funnel", name = "funnel", center = [0, 0, 0], axis = [0, 0, 1], profile = [[0.5, -1], [3, 1]] },
+  { shape = "disc", center = [9, 0, 0], axis = [0, 0, 1], radius = 1 },
+]
+[[spheres]]
+count = 40
+arrangement = "random"
+radius = [0.2, 0.3]
+temperature = 2.0
+"#;
+
+fn vessel(engine: EngineKind) -> Scene<f64> {
+    let mut scene = SceneFile::parse("vessel.toml", VESSEL).unwrap().build().unwrap();
+    scene.engine = engine;
+    scene
+}
+
+fn parts_of(scene: &Scene<f64>, execution: Execution) -> Vec<PartTotals> {
+    let mut world = World::new(scene.clone(), execution).unwrap();
+    world.advance(4.0).unwrap();
+    let parts = world.parts();
+    let count: u64 = parts.iter().map(|part| part.collisions).sum();
+    assert_eq!(count, world.collisions().surroundings);
+    parts
+}
+
+#[test]
+fn the_events_of_a_part_add_up_to_its_totals() {
+    for engine in [EngineKind::EventDriven, EngineKind::Stepped] {
+        let scene = vessel(engine);
+        let mut world = World::new(scene.clone(), Execution::new().threads(1)).unwrap();
+        let mut counted = [(0, [0.0; 3]); 3];
+        world
+            .for_each_event(4.0, |event| {
+                if let Partner::Surroundings(part) = event.partner {
+                    let (count, sum) = &mut counted[part as usize];
+                    *count += 1;
+                    let impulse = event.normal * event.normal_impulse + event.tangential_impulse;
+                    for (sum, j) in sum.iter_mut().zip(impulse.to_array()) {
+                        *sum += j;
+                    }
+                }
+            })
+            .unwrap();
+        let parts = world.parts();
+        assert_eq!(parts.len(), 3);
+        for (part, (count, sum)) in parts.iter().zip(counted) {
+            assert_eq!(part.collisions, count, "{engine:?} {part:?}");
+            for (j, sum) in part.impulse.iter().zip(sum) {
+                assert!((j - sum).abs() < 1e-10 * (1.0 + sum.abs()), "{engine:?}: {part:?} {sum}");
+            }
+        }
+        assert!(parts[0].collisions > 50 && parts[1].collisions > 20, "{parts:?}");
+        assert_eq!((parts[2].part, parts[2].collisions, parts[2].impulse), (2, 0, [0.0; 3]));
+    }
+}
+
+#[test]
+fn parts_are_counted_alike_in_every_order() {
+    let plain = Execution::new().threads(1).lanes(Lanes::Scalar);
+    for engine in [EngineKind::EventDriven, EngineKind::Stepped] {
+        let scene = vessel(engine);
+        let expected = parts_of(&scene, plain);
+        for execution in [
+            plain.lanes(Lanes::Auto),
+            plain.threads(3),
+            plain.order(Order::Windows),
+            plain.order(Order::Windows).threads(3),
+        ] {
+            assert_eq!(parts_of(&scene, execution), expected, "{engine:?} {execution:?}");
+        }
+    }
+}
+
+#[test]
+fn of_many_parts_those_with_names_are_counted() {
+    let ball = |x: f64| Sphere::new([x, 0.0, 2.0]).radius(0.25).velocity([0.0, 0.0, -1.0]);
+    let mut scene = Scene::<f64>::builder().sphere(ball(0.0)).sphere(ball(70.0));
+    for k in 0..100 {
+        let place = [f64::from(k), 0.0, 0.0];
+        let post = FixedSphere::solid(place, 0.25);
+        scene = match k {
+            70 => scene.named_surroundings("post", post),
+            _ => scene.surroundings(post),
+        };
+    }
+    scene = scene.named_surroundings("wall", Plane::new([0.0, 5.0, 0.0], [0.0, -1.0, 0.0]));
+    let mut world =
+        World::new(scene.engine(EngineKind::EventDriven).build().unwrap(), Execution::default())
+            .unwrap();
+    world.advance(3.0).unwrap();
+    assert_eq!(world.collisions().surroundings, 2);
+    let parts: Vec<_> = world.parts().iter().map(|part| (part.part, part.collisions)).collect();
+    assert_eq!(parts, [(70, 1), (100, 0)]);
+    // The others count for the whole.
+    let mass = 1.0;
+    assert_eq!(world.impulse_from_surroundings(), [0.0, 0.0, 4.0 * mass]);
+}
+
+/// What had added up before a change of the world goes on.
+#[test]
+fn a_change_of_the_world_lets_parts_go_on() {
+    let ball = Sphere::new([0.0, 0.0, 0.0]).radius(0.5).velocity([1.0, 0.0, 0.0]);
+    let tube = Cylinder::container([0.0; 3], [0.0, 0.0, 1.0], 1.5, None);
+    let scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).surroundings(tube);
+    let mut world = World::new(scene.sphere(ball).build().unwrap(), Execution::default()).unwrap();
+    world.advance(1.5).unwrap();
+    let mut change = world.change();
+    change.set_velocity(0, [-2.0, 0.0, 0.0]);
+    change.apply().unwrap();
+    world.advance(1.0).unwrap();
+    let [tube] = world.parts()[..] else { panic!("{:?}", world.parts()) };
+    assert_eq!((tube.collisions, tube.impulse), (2, [2.0, 0.0, 0.0]));
+}
+
+#[test]
+fn names_that_cannot_be() {
+    let message = |names: [&str; 2]| {
+        let plane = "[[surroundings]]\nshape = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n";
+        let [a, b] = names.map(|name| format!("{plane}name = \"{name}\"\n"));
+        let text = format!("{a}{b}[[spheres]]\nposition = [0, 0, 0]\nradius = 0.5\n");
+        let built = SceneFile::parse("s.toml", &text).unwrap().build::<f64>();
+        built.map_or_else(|error| error.to_string(), |scene| format!("{:?}", scene.part_names))
+    };
+    assert_eq!(message(["floor", "wall"]), r#"[Some("floor"), Some("wall")]"#);
+    assert_eq!(
+        message(["floor", "floor"]),
+        "s.toml:10: surroundings[1].name is \"floor\"; surroundings[0] is called so already"
+    );
+    assert_eq!(
+        message(["floor", ""]),
+        "s.toml:10: surroundings[1].name is \"\"; a name has letters, and no line breaks or other \
+         control characters"
+    );
+}
