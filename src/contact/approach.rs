@@ -37,7 +37,7 @@ pub(crate) struct Approach<T> {
 
 impl<T: Real> Approach<T> {
     /// The first contact that `counts`; None if there is none ever.
-    pub(crate) fn contact_time(&self, start: Start, counts: impl Fn(T) -> bool) -> Option<T> {
+    pub(crate) fn contact_time(&self, start: Start, counts: &dyn Fn(T) -> bool) -> Option<T> {
         match (self.horizon(), start) {
             (None, _) => self.straight(start).filter(|&time| counts(time)),
             (Some(horizon), Start::Apart) => self.fall(horizon, counts),
@@ -134,7 +134,7 @@ impl<T: Real> Approach<T> {
     }
 
     /// The first fall of `f`.
-    fn fall(&self, horizon: T, counts: impl Fn(T) -> bool) -> Option<T> {
+    fn fall(&self, horizon: T, counts: &dyn Fn(T) -> bool) -> Option<T> {
         let Self { offset, velocity, acceleration, reach, .. } = *self;
         let half = T::ratio(1, 2);
         let position = |time: T| offset + (velocity + acceleration * (half * time)) * time;
@@ -173,7 +173,7 @@ impl<T: Real> Approach<T> {
     /// ```
     ///
     /// Divided, so that the contact itself is not found again.
-    fn fall_from_contact(&self, horizon: T, start: Start, counts: impl Fn(T) -> bool) -> Option<T> {
+    fn fall_from_contact(&self, horizon: T, start: Start, counts: &dyn Fn(T) -> bool) -> Option<T> {
         let Self { offset, velocity, acceleration, .. } = *self;
         let half = T::ratio(1, 2);
         let moving_out = self.outward(offset.dot(velocity));
@@ -238,7 +238,7 @@ mod tests {
         ];
         for (offset, velocity, expected) in cases {
             let approach = approach(offset, velocity, down);
-            let found = approach.contact_time(Start::Apart, |_| true);
+            let found = approach.contact_time(Start::Apart, &|_| true);
             let error = (found.unwrap() - expected).abs();
             assert!(error <= T::whole(2) * T::EPSILON, "{found:?} for {expected}");
         }
@@ -255,7 +255,8 @@ mod tests {
         for velocity in [1e-12, 1e-6, 1.0, 1e3, 1e6] {
             let start = [0.0, 1.0 - f64::EPSILON, 0.0];
             let up = approach(start, [0.0, velocity, 0.0], [0.0, -10.0, 0.0]);
-            let found = up.contact_time(Start::at(up.gap_squared(), 0.0, false), |_| true).unwrap();
+            let found =
+                up.contact_time(Start::at(up.gap_squared(), 0.0, false), &|_| true).unwrap();
             let error = (found / (velocity / 5.0) - 1.0).abs();
             assert!(error < 4.0 * f64::EPSILON, "{velocity}: {error:e}");
         }
@@ -266,10 +267,10 @@ mod tests {
         for is_leaving in [false, true] {
             let rest = approach([0.0, 1.0, 0.0], [0.0; 3], [0.0, -10.0, 0.0]);
             let start = Start::at(rest.gap_squared(), 1e-12, is_leaving);
-            assert_eq!(rest.contact_time(start, |_| true), Some(0.0));
+            assert_eq!(rest.contact_time(start, &|_| true), Some(0.0));
             let hanging = approach([0.0, -1.0, 0.0], [0.0; 3], [0.0, -10.0, 0.0]);
             let start = Start::at(hanging.gap_squared(), 1e-12, is_leaving);
-            assert_eq!(hanging.contact_time(start, |_| true), None);
+            assert_eq!(hanging.contact_time(start, &|_| true), None);
         }
     }
 
@@ -280,22 +281,22 @@ mod tests {
             ..approach([0.6, 0.8, 0.0], [-1.0_f64, 0.0, 0.0], [0.0; 3])
         };
         for start in [Start::Touching, Start::Leaving] {
-            assert_eq!(chord.contact_time(start, |_| true), Some(1.2));
+            assert_eq!(chord.contact_time(start, &|_| true), Some(1.2));
         }
         // The same, seen a little off by rounding.
         let reversed = Approach { velocity: Vec3::new(1.0, 0.0, 0.0), ..chord };
-        assert_eq!(reversed.contact_time(Start::Touching, |_| true), Some(0.0));
-        assert_eq!(reversed.contact_time(Start::Leaving, |_| true), Some(1.2));
+        assert_eq!(reversed.contact_time(Start::Touching, &|_| true), Some(0.0));
+        assert_eq!(reversed.contact_time(Start::Leaving, &|_| true), Some(1.2));
     }
 
     #[test]
     fn almost_no_field_is_straight_flight() {
         let straight = approach([3.0_f32, 0.6, 0.0], [-1.0, 0.0, 0.0], [0.0; 3]);
-        let expected = straight.contact_time(Start::Apart, |_| true).unwrap();
+        let expected = straight.contact_time(Start::Apart, &|_| true).unwrap();
         for field in [1e-12, 1e-20, 1e-30, 1e-38, 1e-45] {
             for acceleration in [[0.0, -field, 0.0], [field, 0.0, 0.0], [-field, field, 0.0]] {
                 let curved = Approach { acceleration: acceleration.into(), ..straight };
-                let found = curved.contact_time(Start::Apart, |_| true).unwrap();
+                let found = curved.contact_time(Start::Apart, &|_| true).unwrap();
                 assert!((found - expected).abs() <= 4.0 * f32::EPSILON, "{found} {field}");
             }
         }

@@ -73,11 +73,14 @@ pub(crate) fn fall_of_height<T: Real>(
 /// `function` gives value and slope; it is monotone between neighbours of
 /// `ends`, which ascend. `is_above` says whether it comes from above zero: a
 /// function that begins below has to rise first. It may begin at zero.
+///
+/// `counts` is asked for each zero only, so a call of its own is cheap, and there is one
+/// instance of the search and not one for each shape.
 pub(crate) fn first_fall<T: Real>(
     ends: &[T],
     mut is_above: bool,
     function: impl Fn(T) -> (T, T),
-    counts: impl Fn(T) -> bool,
+    counts: &dyn Fn(T) -> bool,
 ) -> Option<T> {
     for (&low, &high) in ends.iter().zip(ends.iter().skip(1)) {
         let (value, _) = function(high);
@@ -221,11 +224,11 @@ mod tests {
         };
         // Exactly where it turns matters for the touch alone.
         let ends = [0.0, 1.0, 1.610, 2.64, 9.0];
-        assert_eq!(first_fall(&ends, true, function, |_| true), Some(2.0));
-        assert_eq!(first_fall(&ends, true, function, |time| time > 2.5), None);
+        assert_eq!(first_fall(&ends, true, function, &|_| true), Some(2.0));
+        assert_eq!(first_fall(&ends, true, function, &|time| time > 2.5), None);
         // Through zero at a turning point of rank three.
         let cube = |t: f64| (-(t - 1.0) * (t - 1.0) * (t - 1.0), -3.0 * (t - 1.0) * (t - 1.0));
-        assert_eq!(first_fall(&[0.0, 1.0, 2.0], true, cube, |_| true), Some(1.0));
+        assert_eq!(first_fall(&[0.0, 1.0, 2.0], true, cube, &|_| true), Some(1.0));
     }
 
     #[test]

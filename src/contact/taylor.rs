@@ -45,7 +45,7 @@ pub(crate) fn first_fall_of<T: Real, const N: usize>(
     expand: impl Fn(T) -> Expansion<T, N>,
     start: Start,
     lift: T,
-    counts: impl Fn(T) -> bool,
+    counts: &dyn Fn(T) -> bool,
 ) -> Option<T> {
     let now = expand(T::ZERO);
     let mut is_at_zero = start != Start::Apart;
@@ -246,11 +246,11 @@ mod tests {
             let expand = |time: f64| polynomial(time, &roots[..degree], 1.0);
             for (k, fall) in roots[..degree].iter().enumerate().step_by(2) {
                 let since = if k == 0 { 0.0 } else { roots[k - 1] + 0.01 };
-                let found = first_fall_of(expand, Start::Apart, 0.0, |time| time > since);
+                let found = first_fall_of(expand, Start::Apart, 0.0, &|time| time > since);
                 let error = (found.unwrap() - fall).abs();
                 assert!(error < 1e-12, "{found:?} for {fall}, degree {degree}");
             }
-            let last = first_fall_of(expand, Start::Apart, 0.0, |_| false);
+            let last = first_fall_of(expand, Start::Apart, 0.0, &|_| false);
             assert_eq!(last, None);
         }
     }
@@ -269,8 +269,8 @@ mod tests {
                     Expansion { coefficients, gap, rounding: 1e-16, period: 1.0 }
                 }
             };
-            assert_eq!(first_fall_of(expand(-1.0), Start::Apart, 0.0, |_| true), None);
-            let found = first_fall_of(expand(1.0), Start::Apart, 0.0, |_| true);
+            assert_eq!(first_fall_of(expand(-1.0), Start::Apart, 0.0, &|_| true), None);
+            let found = first_fall_of(expand(1.0), Start::Apart, 0.0, &|_| true);
             let error = (found.unwrap() - (1.0 - depth.sqrt())).abs();
             assert!(error < 1e-15 / depth.sqrt().min(0.1), "{depth:e}: {error:e}");
         }
@@ -288,7 +288,7 @@ mod tests {
                 Expansion { coefficients, gap, rounding: 1e-16 * (1.0 + gap.abs()), period: 1.0 }
             };
             for start in [Start::Touching, Start::Leaving] {
-                let found = first_fall_of(expand, start, 0.0, |_| true);
+                let found = first_fall_of(expand, start, 0.0, &|_| true);
                 assert!((found.unwrap() / next - 1.0).abs() < 1e-14, "{found:?} for {next}");
             }
         }

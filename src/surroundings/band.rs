@@ -73,7 +73,7 @@ impl<T: Real> Band<T> {
 }
 
 impl<T: Real> Obstacle<T> for Band<T> {
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let (distance, normal) = self.nearest(center);
         Clearance { gap: distance - radius, arm: normal * radius }
@@ -113,7 +113,7 @@ impl<T: Real> Pieced<T> for Band<T> {
         normal * distance.greater(T::ZERO)
     }
 
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         let Self { axis, slant, sides, rims } = *self;
         if self.is_flat() {
             let point = axis.point(slant.start[1]);

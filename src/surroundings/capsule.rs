@@ -83,7 +83,7 @@ impl<T: Real> Capsule<T> {
 
 impl<T: Real> Obstacle<T> for Capsule<T> {
     /// On the line, where no normal is defined, the arm is zero and no impulse follows.
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let offset = self.off_line(center);
         let distance = offset.length();
@@ -125,7 +125,7 @@ impl<T: Real> Pieced<T> for Capsule<T> {
         self.radius
     }
 
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         let Self { radius, inside: is_hollow, .. } = *self;
         visit(Piece::Edge { axis: self.axis(), radius, is_hollow });
         for center in self.ends {

@@ -97,7 +97,7 @@ fn turn<T: Real>(before: &Slant<T>, after: &Slant<T>) -> T {
 
 impl<T: Real> Obstacle<T> for Chain<T> {
     /// A centre inside is pushed out through the chain.
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let (distance, normal) = self.nearest(center);
         Clearance { gap: distance - radius, arm: normal * radius }
@@ -137,7 +137,7 @@ impl<T: Real> Pieced<T> for Chain<T> {
         normal * distance.greater(T::ZERO)
     }
 
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         let axis = self.axis;
         let lines = self.lines();
         for (k, slant) in lines.iter().enumerate() {

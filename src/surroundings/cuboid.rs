@@ -165,7 +165,7 @@ impl<T: Real> Pieced<T> for Cuboid<T> {
     }
 
     /// The faces, edges and corners, by where along each axis they lie.
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         for Plane { point, normal } in self.faces() {
             visit(Piece::Face { point, normal: -normal });
         }

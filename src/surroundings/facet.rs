@@ -58,7 +58,7 @@ impl<T: Real> Facet<T> {
 }
 
 impl<T: Real> Obstacle<T> for Facet<T> {
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let (distance, normal) = self.nearest(center);
         Clearance { gap: distance - radius, arm: normal * radius }
@@ -88,7 +88,7 @@ impl<T: Real> Pieced<T> for Facet<T> {
         normal * distance
     }
 
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         for normal in [self.normal, -self.normal] {
             visit(Piece::Face { point: self.corners[0], normal });
         }

@@ -91,7 +91,7 @@ impl<T: Real> Obstacle<T> for FixedSphere<T> {
         let approach = self.approach(flight);
         let slack = approach.squared(flight.slack(self.center));
         let start = Start::at(approach.gap_squared(), slack, flight.is_leaving);
-        approach.contact_time(start, |_| true)
+        approach.contact_time(start, &|_| true)
     }
 
     fn bounds(&self) -> Option<[Vec3<T>; 2]> {

@@ -54,7 +54,7 @@ impl<T: Real> Frustum<T> {
 
 impl<T: Real> Obstacle<T> for Frustum<T> {
     /// A centre inside is pushed out through the nearest face.
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let (distance, normal) = self.nearest(center);
         Clearance { gap: distance - radius, arm: normal * radius }
@@ -86,7 +86,7 @@ impl<T: Real> Pieced<T> for Frustum<T> {
         normal * distance.greater(T::ZERO)
     }
 
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         let Self { axis, profile: [_, wall, _] } = *self;
         visit(Piece::Face { point: axis.center, normal: -axis.direction });
         visit(Piece::Wall { axis, slant: wall, is_hollow: false });

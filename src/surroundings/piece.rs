@@ -72,7 +72,7 @@ impl<T: Real> Piece<T> {
         &self,
         flight: &FreeFlight<T>,
         start: Start,
-        counts: impl Fn(T) -> bool,
+        counts: &dyn Fn(T) -> bool,
     ) -> Option<T> {
         let lift = self.gap(flight.center, flight.radius).abs();
         match *self {

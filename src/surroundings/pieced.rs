@@ -13,7 +13,7 @@ use crate::vec3::Vec3;
 /// A part by its pieces.
 pub(super) trait Pieced<T: Real>: Obstacle<T> {
     /// All pieces, in no order.
-    fn each_piece(&self, visit: impl FnMut(Piece<T>));
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>));
 
     /// Whether spheres are outside of something convex.
     fn is_convex(&self) -> bool {
@@ -87,7 +87,7 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
         if approach.gap_squared() <= T::ZERO {
             return self.by_near_pieces(flight, start, gap);
         }
-        self.by_pieces_from(flight, approach.contact_time(Start::Apart, |_| true)?)
+        self.by_pieces_from(flight, approach.contact_time(Start::Apart, &|_| true)?)
     }
 
     /// The earliest contact after a time at which there is none, nor was before.
@@ -103,7 +103,7 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
         let size = T::from_f64(self.farthest());
         let near = T::whole(4) * flight.rounding(T::ZERO, size);
         let mut first: Option<T> = None;
-        self.each_piece(|piece| {
+        self.each_piece(&mut |piece| {
             let own = piece.gap(flight.center, flight.radius);
             // Of a piece behind another one, or beyond its ends, the gap says nothing.
             let is_at = own <= slack && own >= gap - near;
@@ -121,7 +121,7 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
                 let rounding = T::whole(16) * flight.rounding(time, size);
                 self.clearance(flight.position(time), flight.radius).gap <= rounding
             };
-            let found = piece.contact_time(flight, start, counts);
+            let found = piece.contact_time(flight, start, &counts);
             first = match (first, found) {
                 (Some(a), Some(b)) => Some(a.lesser(b)),
                 (a, b) => a.or(b),
@@ -149,7 +149,7 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
     /// `wait` itself, unless that is too short to get on by.
     fn long_hop(&self, flight: &FreeFlight<T>, wait: T) -> T {
         let (mut hop, mut nearest) = (wait, None);
-        self.each_piece(|piece| {
+        self.each_piece(&mut |piece| {
             let gap = piece.gap(flight.center, flight.radius).abs();
             if nearest.is_none_or(|nearest| gap < nearest) {
                 (hop, nearest) = (piece.hop(flight, wait), Some(gap));

@@ -183,7 +183,7 @@ fn level_faces<T: Real>(
 
 impl<T: Real> Obstacle<T> for Polytope<T> {
     /// A centre inside is pushed out through the nearest face.
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let (distance, normal) = self.nearest(center);
         Clearance { gap: distance - radius, arm: normal * radius }
@@ -213,7 +213,7 @@ impl<T: Real> Pieced<T> for Polytope<T> {
         normal * distance.greater(T::ZERO)
     }
 
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         for &Face { point, normal, .. } in self.faces.iter() {
             visit(Piece::Face { point, normal });
         }

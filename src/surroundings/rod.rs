@@ -27,7 +27,7 @@ impl<T: Real> Rod<T> {
 impl<T: Real> Obstacle<T> for Rod<T> {
     /// On the axis of a hollow one, where no normal is defined, the arm is zero and no
     /// impulse follows.
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let place = self.axis.place(center);
         let across = place.outward * place.distance;
@@ -39,7 +39,7 @@ impl<T: Real> Obstacle<T> for Rod<T> {
         let approach = self.piece().approach(flight)?;
         let slack = approach.squared(slack);
         let start = Start::at(approach.gap_squared(), slack, flight.is_leaving);
-        approach.contact_time(start, |_| true)
+        approach.contact_time(start, &|_| true)
     }
 
     fn bounds(&self) -> Option<[Vec3<T>; 2]> {

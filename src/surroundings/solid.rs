@@ -11,8 +11,9 @@ use crate::vec3::Vec3;
 
 /// What a sphere touches in one point at a time: the kernels' side of a shape.
 pub(crate) trait Obstacle<T: Real> {
-    /// Where spheres with these centres and radii stand to it. Runs in the
-    /// innermost loops: `#[inline(always)]`.
+    /// Where spheres with these centres and radii stand to it. Runs in the innermost loops:
+    /// `#[inline(always)]` for plane, box and sphere, which are most walls; `#[inline(never)]`
+    /// for what is longer than a call, since every loop would have a copy of it.
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L>;
 
     /// When a sphere in free flight collides with it, as

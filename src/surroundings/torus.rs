@@ -70,7 +70,7 @@ impl<T: Real> Torus<T> {
 
 impl<T: Real> Obstacle<T> for Torus<T> {
     /// On the circle, where no normal is defined, the arm is zero and no impulse follows.
-    #[inline(always)]
+    #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
         let place = self.axis.place(center);
         let out = place.distance - L::splat(self.radius);
@@ -102,7 +102,7 @@ impl<T: Real> Obstacle<T> for Torus<T> {
 }
 
 impl<T: Real> Pieced<T> for Torus<T> {
-    fn each_piece(&self, mut visit: impl FnMut(Piece<T>)) {
+    fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         visit(Piece::Rim {
             axis: self.axis,
             height: T::ZERO,
