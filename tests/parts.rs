@@ -3,7 +3,10 @@
 
 use carom::engine::{Execution, Lanes, Order, PartTotals, Partner, World};
 use carom::scene::{EngineKind, Scene, SceneFile, Sphere};
-use carom::surroundings::{Cylinder, FixedSphere, Plane};
+use carom::surroundings::{
+    Capsule, Cone, Cuboid, Cylinder, Disc, FixedSphere, Hull, Plane, Revolved, Shape, Torus,
+    Triangle, Tube,
+};
 
 /// Balls in a container with a funnel, and a plate that none comes to.
 const VESSEL: &str = r#"
@@ -146,4 +149,66 @@ fn names_that_cannot_be() {
         "s.toml:10: surroundings[1].name is \"\"; a name has letters, and no line breaks or other \
          control characters"
     );
+}
+
+/// For balls that do not meet each other in a sphere, `Σ|J_n| (R − r) = 2 E t` in the mean: the
+/// theorem of the virial.
+#[test]
+fn the_pressure_in_a_sphere_is_that_of_the_virial() {
+    let text = r#"
+        encounters = "surroundings"
+        stepped = { dt = 0.01 }
+        [[surroundings]]
+        shape = "sphere"
+        name = "vessel"
+        center = [0, 0, 0]
+        radius = 2
+        inside = true
+        [[spheres]]
+        count = 200
+        arrangement = "random"
+        radius = 0.25
+        temperature = 1.0
+    "#;
+    let mut scene = SceneFile::parse("vessel.toml", text).unwrap().build::<f64>().unwrap();
+    for engine in [EngineKind::EventDriven, EngineKind::Stepped] {
+        scene.engine = engine;
+        let mut world = World::new(scene.clone(), Execution::default()).unwrap();
+        let duration = 50.0;
+        world.advance(duration).unwrap();
+        let [vessel] = world.parts()[..] else { panic!("{:?}", world.parts()) };
+        let expected = 2.0 * world.energy().translational * duration / 1.75;
+        let error = (vessel.normal_impulse / expected - 1.0).abs();
+        assert!(error < 0.01, "{engine:?}: {} for {expected}", vessel.normal_impulse);
+        assert_eq!(vessel.area, Some(16.0 * core::f64::consts::PI));
+    }
+}
+
+#[test]
+fn areas_are_those_of_the_surfaces() {
+    let pi = core::f64::consts::PI;
+    let (origin, up) = ([0.0; 3], [0.0, 0.0, 1.0]);
+    let corner = |k: usize| core::array::from_fn(|axis| f64::from((k >> axis & 1) as u32));
+    let can = [[0.0, 0.0], [2.0, 0.0], [2.0, 3.0], [0.0, 3.0]];
+    let areas: [(Shape<f64>, f64); 13] = [
+        (Cuboid::container([0.0; 3], [1.0, 2.0, 3.0]).into(), 22.0),
+        (Hull::new((0..8).map(corner).chain([[0.5; 3]])).into(), 6.0),
+        (FixedSphere::solid(origin, 2.0).into(), 16.0 * pi),
+        (Capsule::solid(origin, [0.0, 0.0, 3.0], 2.0).into(), 28.0 * pi),
+        (Cylinder::solid(origin, up, 2.0, Some(3.0)).into(), 20.0 * pi),
+        (Revolved::solid(origin, up, can).into(), 20.0 * pi),
+        (Cone::solid(origin, up, 4.0, [3.0, 0.0]).into(), 24.0 * pi),
+        (Disc::new(origin, up, 2.0, 1.0).into(), 6.0 * pi),
+        (Tube::new(origin, up, 4.0, [3.0, 0.0]).into(), 30.0 * pi),
+        (Revolved::thin(origin, up, [[0.0, 4.0], [3.0, 0.0]]).into(), 30.0 * pi),
+        (Torus::solid(origin, up, 3.0, 1.0).into(), 12.0 * pi * pi),
+        (Triangle::new(origin, [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]).into(), 12.0),
+        (Shape::from(FixedSphere::solid(origin, 1.0)).scaled(3.0), 36.0 * pi),
+    ];
+    for (shape, area) in areas {
+        let found = shape.area().unwrap();
+        assert!((found / area - 1.0).abs() < 1e-14, "{found} for {area}: {shape:?}");
+    }
+    assert_eq!(Shape::from(Cylinder::solid(origin, up, 1.0, None)).area(), None);
+    assert_eq!(Shape::from(Cone::endless_solid(origin, up, 1.0)).area(), None);
 }

@@ -3,6 +3,7 @@
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
+use super::parts::Counter;
 use super::{Collisions, PartTotals};
 use crate::compensated::ExactSum;
 use crate::real::Real;
@@ -77,18 +78,22 @@ pub struct Account {
 pub struct PartSum {
     collisions: u64,
     impulse: [ExactSum; 3],
+    /// `Σ|J_n|`, of parts with a name.
+    normal: ExactSum,
 }
 
 impl PartSum {
     /// What is added up so far, of a part.
     pub fn totals(&self, part: u32) -> PartTotals {
         let impulse = self.impulse.each_ref().map(ExactSum::value);
-        PartTotals { part, collisions: self.collisions, impulse }
+        let normal_impulse = self.normal.value();
+        PartTotals { part, collisions: self.collisions, impulse, normal_impulse, area: None }
     }
 
     fn merge(&mut self, other: &Self) {
         self.collisions = self.collisions.wrapping_add(other.collisions);
         merge(&mut self.impulse, &other.impulse);
+        self.normal.merge(&other.normal);
     }
 }
 
@@ -107,27 +112,40 @@ impl Account {
         self.virial.add(virial(normal, offset));
     }
 
-    /// Counts a collision with something fixed, by the impulse on the body and the part's
-    /// counter.
+    /// Counts a collision with something fixed, by the normal and the tangential impulse on
+    /// the body and the part's counter.
     #[inline(always)]
-    pub fn surroundings<T: Real>(&mut self, impulse: Vec3<T>, counter: Option<usize>) {
+    pub fn surroundings<T: Real>(
+        &mut self,
+        [normal, tangential]: [Vec3<T>; 2],
+        counter: Option<Counter>,
+    ) {
         self.collisions.surroundings += 1;
-        self.add_impulse(impulse, counter, 1);
+        self.add_impulse([normal, tangential], counter, T::ONE, 1);
     }
 
-    /// Adds to the sums of a counter, and to its count, which may wrap.
+    /// Adds to the sums of a counter, by a sign, and to its count, which may wrap.
     #[inline(always)]
-    fn add_impulse<T: Real>(&mut self, impulse: Vec3<T>, counter: Option<usize>, count: u64) {
+    fn add_impulse<T: Real>(
+        &mut self,
+        [normal, tangential]: [Vec3<T>; 2],
+        counter: Option<Counter>,
+        sign: T,
+        count: u64,
+    ) {
         let sums = match counter {
             None => &mut self.impulse,
-            Some(counter) => {
-                let part = self.part(counter);
+            Some(Counter { index, is_named }) => {
+                let part = self.part(index);
                 part.collisions = part.collisions.wrapping_add(count);
+                if is_named {
+                    part.normal.add((normal.length() * sign).to_f64());
+                }
                 &mut part.impulse
             }
         };
-        for (sum, j) in sums.iter_mut().zip(impulse.to_array()) {
-            sum.add(j.to_f64());
+        for (sum, j) in sums.iter_mut().zip((normal + tangential).to_array()) {
+            sum.add((j * sign).to_f64());
         }
     }
 
@@ -152,9 +170,9 @@ impl Account {
     }
 
     /// Takes a collision with something fixed back.
-    pub fn undo_surroundings<T: Real>(&mut self, impulse: Vec3<T>, counter: Option<usize>) {
+    pub fn undo_surroundings<T: Real>(&mut self, impulses: [Vec3<T>; 2], counter: Option<Counter>) {
         self.collisions.surroundings = self.collisions.surroundings.wrapping_sub(1);
-        self.add_impulse(-impulse, counter, u64::MAX);
+        self.add_impulse(impulses, counter, -T::ONE, u64::MAX);
     }
 
     /// Takes the end of a flight back.

@@ -271,7 +271,10 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
         let Frame { length, time, mass, .. } = self.frame;
         let mut parts = self.engine.parts();
         for part in &mut parts {
-            part.impulse = part.impulse.map(|impulse| impulse * power(mass + length - time));
+            let unit = power(mass + length - time);
+            part.impulse = part.impulse.map(|impulse| impulse * unit);
+            part.normal_impulse *= unit;
+            part.area = part.area.map(|area| area * power(2 * length));
         }
         parts
     }

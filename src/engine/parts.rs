@@ -8,44 +8,51 @@ use crate::scene::Scene;
 /// would have its sums far from the others' in memory.
 const MOST_UNNAMED: usize = 64;
 
-/// No counter.
-const NONE: u32 = u32::MAX;
+/// The counter of a part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Counter {
+    pub index: usize,
+    /// Whether its part has a name.
+    pub is_named: bool,
+}
 
 /// The counters of parts.
 #[derive(Clone, Debug)]
 pub(super) struct Counted {
     /// By part.
-    counters: Vec<u32>,
-    /// By counter.
-    parts: Vec<u32>,
+    counters: Vec<Option<Counter>>,
+    /// By counter: the part, and the area of its surface, length².
+    parts: Vec<(u32, Option<f64>)>,
 }
 
 impl Counted {
     /// Of a scene: parts with a name, and all parts if they are few.
     pub fn of<T: Real>(scene: &Scene<T>) -> Self {
         let len = scene.surroundings.len();
-        let is_named = |part: usize| scene.part_names.get(part).is_some_and(Option::is_some);
-        let is_counted = |part: &u32| len <= MOST_UNNAMED || is_named(*part as usize);
-        let parts: Vec<u32> = (0..len as u32).filter(is_counted).collect();
-        let mut counters = vec![NONE; len];
-        for (counter, part) in (0..).zip(&parts) {
-            counters[*part as usize] = counter;
+        let (mut counters, mut parts) = (Vec::with_capacity(len), Vec::new());
+        for (part, shape) in (0..).zip(&scene.surroundings) {
+            let is_named = scene.part_names.get(counters.len()).is_some_and(Option::is_some);
+            let is_counted = is_named || len <= MOST_UNNAMED;
+            counters.push(is_counted.then_some(Counter { index: parts.len(), is_named }));
+            if is_counted {
+                parts.push((part, shape.area().map(T::to_f64)));
+            }
         }
         Self { counters, parts }
     }
 
     /// The counter of a part, if it has one.
     #[inline(always)]
-    pub fn counter(&self, part: u32) -> Option<usize> {
-        let counter = self.counters[part as usize];
-        (counter != NONE).then_some(counter as usize)
+    pub fn counter(&self, part: u32) -> Option<Counter> {
+        self.counters[part as usize]
     }
 
     /// What the sums of the counters say of their parts.
     pub fn totals(&self, sums: &[PartSum]) -> Vec<PartTotals> {
-        let totals = |(counter, part): (usize, &u32)| match sums.get(counter) {
-            Some(sum) => sum.totals(*part),
-            None => PartTotals { part: *part, ..PartTotals::default() },
+        let none = PartSum::default();
+        let totals = |(counter, &(part, area)): (usize, &(u32, Option<f64>))| {
+            let sum = sums.get(counter).unwrap_or(&none);
+            PartTotals { area, ..sum.totals(part) }
         };
         self.parts.iter().enumerate().map(totals).collect()
     }
@@ -75,6 +82,11 @@ pub struct PartTotals {
     pub collisions: u64,
     /// The sum of its impulses on the bodies, mass × length per time.
     pub impulse: [f64; 3],
+    /// The sum of the magnitudes of their normal components, of a part with a name; otherwise
+    /// 0.
+    pub normal_impulse: f64,
+    /// The area of its surface, length², of both sides of what is thin; `None` without end.
+    pub area: Option<f64>,
 }
 
 impl PartTotals {
@@ -84,6 +96,8 @@ impl PartTotals {
             part: self.part,
             collisions: self.collisions + before.collisions,
             impulse: core::array::from_fn(|axis| before.impulse[axis] + self.impulse[axis]),
+            normal_impulse: before.normal_impulse + self.normal_impulse,
+            area: self.area,
         }
     }
 
@@ -100,6 +114,8 @@ impl PartTotals {
             part: self.part,
             collisions: self.collisions - earlier.collisions,
             impulse: core::array::from_fn(|axis| self.impulse[axis] - earlier.impulse[axis]),
+            normal_impulse: self.normal_impulse - earlier.normal_impulse,
+            area: self.area,
         }
     }
 }

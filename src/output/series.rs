@@ -62,6 +62,10 @@ const PART_COLUMNS: &[(&str, PartFigure)] = columns! {
     "force_x": |now, since| force(now, since, 0),
     "force_y": |now, since| force(now, since, 1),
     "force_z": |now, since| force(now, since, 2),
+    "pressure": |now, since| {
+        let (before, elapsed) = since?;
+        Some(now.since(before).normal_impulse / (elapsed * now.area?))
+    },
 };
 
 /// The force of a part on the bodies since the row before, in the mean.
@@ -116,12 +120,13 @@ impl SeriesColumn {
 
     /// All columns, and those of parts with these names, if they have any, in the order of
     /// the scene: `NAME.collisions` and `NAME.impulse_x` since the start, `NAME.force_x` since
-    /// the row before, on the bodies; and so `y` and `z`.
+    /// the row before, on the bodies; and so `y` and `z`; `NAME.pressure`, normal impulse over
+    /// time and area, of what has an end.
     ///
     /// ```
     /// use carom::output::SeriesColumn;
     /// let columns = SeriesColumn::all(["floor".into(), None]);
-    /// assert_eq!(columns.last().map(SeriesColumn::name), Some("floor.force_z"));
+    /// assert_eq!(columns.last().map(SeriesColumn::name), Some("floor.pressure"));
     /// ```
     #[must_use]
     pub fn all<'a>(part_names: impl IntoIterator<Item = Option<&'a str>>) -> Vec<Self> {

@@ -99,6 +99,12 @@ impl<T: Real> Axis<T> {
     }
 }
 
+/// Half the length of a circle over its radius.
+pub(super) fn pi<T: Real>() -> T {
+    let [first, second, third] = T::QUARTER_TURN;
+    (first + (second + third)) * T::whole(2)
+}
+
 /// The corners of the box around two.
 pub(super) fn joined<T: Real>([a, b]: [Vec3<T>; 2], [c, d]: [Vec3<T>; 2]) -> [Vec3<T>; 2] {
     [a.lesser(c), b.greater(d)]

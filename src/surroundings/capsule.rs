@@ -1,6 +1,6 @@
 //! Capsule: a cylinder with round ends, solid or hollow.
 
-use super::axis::{Axis, inscribed, joined};
+use super::axis::{Axis, inscribed, joined, pi};
 use super::entry::{INSIDE, Key, Meaning, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, point, positive};
 use super::piece::Piece;
@@ -169,6 +169,11 @@ impl<T: Real> Solid<T> for Capsule<T> {
 
     fn features(&self) -> Vec<Feature<T>> {
         vec![(*self).into()]
+    }
+
+    fn area(&self) -> Option<T> {
+        let [a, b] = self.ends;
+        Some(pi::<T>() * T::whole(2) * self.radius * ((b - a).length() + self.radius * T::whole(2)))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

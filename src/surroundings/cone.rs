@@ -1,6 +1,6 @@
 //! Cone: a cone or a frustum, solid or hollow.
 
-use super::axis::{Axis, inscribed, joined};
+use super::axis::{Axis, inscribed, joined, pi};
 use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, Meaning, RADIUS, ShapeEntry, TOP_RADIUS};
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
@@ -181,6 +181,12 @@ impl<T: Real> Solid<T> for Cone<T> {
         let ends = ends.into_iter().filter(|(radius, _)| *radius > T::ZERO);
         let wall = Feature::from(Band::lining(axis, slant));
         core::iter::once(wall).chain(ends.map(|(_, plane)| plane.into())).collect()
+    }
+
+    fn area(&self) -> Option<T> {
+        let Extent::Ended(height, [base, top]) = self.extent else { return None };
+        let wall = Slant::new([base, T::ZERO], [top, height]).area();
+        Some(wall + pi::<T>() * (base * base + top * top))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

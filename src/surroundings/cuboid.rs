@@ -263,6 +263,11 @@ impl<T: Real> Solid<T> for Cuboid<T> {
         if self.inside { self.faces().map(Feature::Plane).into() } else { vec![(*self).into()] }
     }
 
+    fn area(&self) -> Option<T> {
+        let Vec3 { x, y, z } = self.upper - self.lower;
+        Some((x * y + y * z + z * x) * T::whole(2))
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.around().into()
     }

@@ -1,6 +1,6 @@
 //! Cylinder: solid or hollow, with ends or without.
 
-use super::axis::{Axis, inscribed, joined};
+use super::axis::{Axis, inscribed, joined, pi};
 use super::entry::{AXIS, CENTER, HALF_HEIGHT, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
@@ -118,6 +118,10 @@ impl<T: Real> Solid<T> for Cylinder<T> {
         let base = Plane { point: axis.point(-half), normal };
         let top = Plane { point: axis.point(half), normal: -normal };
         vec![rod.into(), base.into(), top.into()]
+    }
+
+    fn area(&self) -> Option<T> {
+        Some(pi::<T>() * T::whole(2) * self.radius * (self.height? + self.radius))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -109,6 +109,10 @@ impl<T: Real> Solid<T> for Disc<T> {
         true
     }
 
+    fn area(&self) -> Option<T> {
+        Some(Slant::new([self.hole_radius, T::ZERO], [self.radius, T::ZERO]).area() * T::whole(2))
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.axis.around(T::ZERO, self.radius).into()
     }

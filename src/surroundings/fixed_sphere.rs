@@ -1,5 +1,6 @@
 //! Fixed sphere: a solid ball, or the hollow in one.
 
+use super::axis::pi;
 use super::entry::{CENTER, INSIDE, Key, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, point, positive};
 use super::placement::Placement;
@@ -136,6 +137,10 @@ impl<T: Real> Solid<T> for FixedSphere<T> {
 
     fn features(&self) -> Vec<Feature<T>> {
         vec![(*self).into()]
+    }
+
+    fn area(&self) -> Option<T> {
+        Some(pi::<T>() * T::whole(4) * self.radius * self.radius)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -89,6 +89,14 @@ impl<T: Real> Solid<T> for Hull<T> {
         triangles.map(|all| Polytope::new(&self.vertices, &all).into()).into_iter().collect()
     }
 
+    fn area(&self) -> Option<T> {
+        let area = |[a, b, c]: [usize; 3]| {
+            let [a, b, c] = [a, b, c].map(|k| self.vertices[k]);
+            (b - a).cross(c - a).length() * T::ratio(1, 2)
+        };
+        Some(self.triangles()?.into_iter().map(area).fold(T::ZERO, |sum, area| sum + area))
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.vertices.clone()
     }

@@ -258,6 +258,11 @@ impl<T: Real> Solid<T> for Revolved<T> {
         !self.is_closed
     }
 
+    fn area(&self) -> Option<T> {
+        let area = self.lines().iter().fold(T::ZERO, |sum, line| sum + line.area());
+        Some(if self.is_closed { area } else { area * T::whole(2) })
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.around().into()
     }

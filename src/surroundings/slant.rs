@@ -1,6 +1,6 @@
 //! Slant: a straight line of a profile, turned about an axis.
 
-use super::axis::{Axis, joined};
+use super::axis::{Axis, joined, pi};
 use super::entry::{AXIS, BASE, HEIGHT, RADIUS, TOP_RADIUS};
 use super::mistake::{Mistake, direction, not_negative, point, positive};
 use crate::lane::{Lane, Mask};
@@ -97,6 +97,11 @@ impl<T: Real> Slant<T> {
             normal: [normal(0), normal(1)],
             is_right,
         }
+    }
+
+    /// The area of what it makes, on one side, length².
+    pub(super) fn area(&self) -> T {
+        pi::<T>() * (self.start[0] + self.end[0]) * self.length
     }
 
     /// The corners of the box around what it makes, length.

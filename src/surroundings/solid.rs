@@ -78,6 +78,11 @@ pub(crate) trait Solid<T: Real>: Clone {
         self.interior().is_some()
     }
 
+    /// The area of its surface, of what is thin on both sides, length²; `None` without end.
+    fn area(&self) -> Option<T> {
+        None
+    }
+
     /// Whether it has no inside: what jumps into it comes out on its other side.
     fn is_thin(&self) -> bool {
         false
@@ -220,6 +225,22 @@ macro_rules! solids {
             pub fn cast<B: Real>(&self) -> Shape<B> {
                 match self {
                     $(Self::$solid(solid) => Shape::$solid(solid.cast()),)*
+                }
+            }
+
+            /// The area of its surface, length²: of what is thin on both sides, of a container
+            /// on its inside. `None` for a shape without end.
+            ///
+            /// ```
+            /// use carom::surroundings::{Cuboid, Plane, Shape};
+            /// let brick = Shape::from(Cuboid::solid([0.0; 3], [1.0, 2.0, 3.0]));
+            /// assert_eq!(brick.area(), Some(22.0));
+            /// assert_eq!(Shape::from(Plane::new([0.0; 3], [0.0, 0.0, 1.0])).area(), None);
+            /// ```
+            #[must_use]
+            pub fn area(&self) -> Option<T> {
+                match self {
+                    $(Self::$solid(solid) => solid.area(),)*
                 }
             }
 

@@ -1,7 +1,7 @@
 //! Torus: a solid ring, or the hollow in one.
 
 use super::Clearance;
-use super::axis::Axis;
+use super::axis::{Axis, pi};
 use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, ShapeEntry};
 use super::mistake::{Mistake, direction, point, positive};
 use super::piece::Piece;
@@ -157,6 +157,10 @@ impl<T: Real> Solid<T> for Torus<T> {
 
     fn features(&self) -> Vec<super::Feature<T>> {
         vec![(*self).into()]
+    }
+
+    fn area(&self) -> Option<T> {
+        Some(pi::<T>() * pi::<T>() * T::whole(4) * self.radius * self.tube_radius)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -89,6 +89,11 @@ impl<T: Real> Solid<T> for Triangle<T> {
         true
     }
 
+    fn area(&self) -> Option<T> {
+        let [a, b, c] = self.corners;
+        Some((b - a).cross(c - a).length())
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         self.corners.into()
     }

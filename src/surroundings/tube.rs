@@ -94,6 +94,11 @@ impl<T: Real> Solid<T> for Tube<T> {
         true
     }
 
+    fn area(&self) -> Option<T> {
+        let [base, top] = self.radii;
+        Some(Slant::new([base, T::ZERO], [top, self.height]).area() * T::whole(2))
+    }
+
     fn points(&self) -> Vec<Vec3<T>> {
         let [base, top] = self.radii;
         joined(self.axis.around(T::ZERO, base), self.axis.around(self.height, top)).into()

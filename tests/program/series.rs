@@ -96,6 +96,12 @@ fn parts_with_names_have_columns_and_lines_of_their_own() {
         let last = all(&format!("wall.impulse_{axis}")).pop().unwrap();
         assert_eq!(last, part["impulse"][k].as_f64());
     }
+    // On six walls of 16: magnitudes add up to no less than vectors do.
+    let (pressures, forces) = (all("wall.pressure"), all("wall.force_z"));
+    assert_eq!(pressures[0], None);
+    for (pressure, force) in pressures.iter().zip(&forces).skip(1) {
+        assert!(pressure.unwrap() * 96.0 >= force.unwrap().abs(), "{pressure:?} {force:?}");
+    }
     let printed = folder.says(run).well();
     assert!(printed.contains("parts") && printed.contains("  wall"), "{printed}");
     // After a time without measurement.

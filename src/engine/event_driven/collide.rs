@@ -61,8 +61,8 @@ pub(super) fn collide_with_feature<T: Real>(
     end_flight(setting, region, slot, &arrival, partner, (time, generation));
     let mark = next_mark(region, slot, partner, generation);
     depart(setting, region, clock, slot, &outcome.departure, mark);
-    let impulse = outcome.impulse.normal + outcome.impulse.tangential;
-    region.worker.account.surroundings(impulse, setting.counter(feature));
+    let impulses = [outcome.impulse.normal, outcome.impulse.tangential];
+    region.worker.account.surroundings(impulses, setting.counter(feature));
     look_ahead(setting, region, slot, nearby, time, clock.period);
     outcome
 }
@@ -212,8 +212,8 @@ pub(super) fn undo_start<T: Real>(setting: &Setting<T>, region: &mut Region<'_, 
         }
         Made::Other => {}
         Made::Feature(feature, made) => {
-            let impulse = made.impulse.normal + made.impulse.tangential;
-            account.undo_surroundings(impulse, setting.counter(feature));
+            let impulses = [made.impulse.normal, made.impulse.tangential];
+            account.undo_surroundings(impulses, setting.counter(feature));
             account.effort.undone += 1;
         }
     }

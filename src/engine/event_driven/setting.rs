@@ -5,7 +5,7 @@ use super::near::{self, Near};
 use super::search::{Search, further, searcher};
 use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
-use crate::engine::parts::Counted;
+use crate::engine::parts::{Counted, Counter};
 use crate::engine::plan::{Plan, Turning};
 use crate::engine::{Execution, Order};
 use crate::motion::integrator::{Coasting, VelocityVerlet};
@@ -121,7 +121,7 @@ impl<T: Real> Setting<T> {
 
     /// The counter of a feature's part, if it has one.
     #[inline(always)]
-    pub fn counter(&self, feature: u32) -> Option<usize> {
+    pub fn counter(&self, feature: u32) -> Option<Counter> {
         self.counted.counter(self.parts[feature as usize])
     }
 

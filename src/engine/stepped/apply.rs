@@ -26,8 +26,8 @@ pub(super) fn apply<T: Real>(
     if is_pair {
         account.pair(outcome.normal, outcome.offset);
     } else {
-        let impulse = outcome.normal + outcome.tangential;
-        account.surroundings(impulse, setting.counter(contact.b));
+        let impulses = [outcome.normal, outcome.tangential];
+        account.surroundings(impulses, setting.counter(contact.b));
     }
     if let Some(record) = record {
         record.push(*contact, event(setting, state, clock, contact, outcome));

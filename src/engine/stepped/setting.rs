@@ -1,7 +1,7 @@
 //! Setting: what all workers read and none writes.
 
 use super::path::Path;
-use crate::engine::parts::Counted;
+use crate::engine::parts::{Counted, Counter};
 use crate::engine::plan::Plan;
 use crate::engine::{EngineError, Execution};
 use crate::motion::Integrator;
@@ -67,7 +67,7 @@ impl<T: Real> Setting<T> {
 
     /// The counter of a feature's part, if it has one.
     #[inline(always)]
-    pub fn counter(&self, feature: u32) -> Option<usize> {
+    pub fn counter(&self, feature: u32) -> Option<Counter> {
         self.counted.counter(self.parts[feature as usize])
     }
 
