@@ -99,14 +99,14 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
     }
 
     fn by_near_pieces(&self, flight: &FreeFlight<T>, start: Start, gap: T) -> Option<T> {
-        let slack = self.slack(flight);
         let size = T::from_f64(self.farthest());
         let near = T::whole(4) * flight.rounding(T::ZERO, size);
         let mut first: Option<T> = None;
         self.each_piece(&mut |piece| {
             let own = piece.gap(flight.center, flight.radius);
-            // Of a piece behind another one, or beyond its ends, the gap says nothing.
-            let is_at = own <= slack && own >= gap - near;
+            // Of a piece behind another one, or beyond its ends, the gap says nothing; one
+            // that is farther off than the whole is met later.
+            let is_at = own <= gap + near && own >= gap - near;
             let is_touching = start == Start::Apart && piece.is_closed(flight);
             let start = match is_at {
                 // Apart from the whole by less than rounding.
