@@ -541,13 +541,14 @@ fn no_flight_passes_through_a_surface() {
     assert!(double.contacts > 20_000 && single.contacts > 20_000);
 }
 
-/// The same with 100,000 flights of each kind, in a precision at a time:
-/// `cargo test --release --test shapes in_full -- --ignored --nocapture`.
+/// The same with 100,000 flights of each kind, or as many as the variable `FLIGHTS` says:
+/// `FLIGHTS=100000 cargo test --release --test shapes in_full -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes hours"]
 fn no_flight_passes_through_a_surface_in_full() {
-    println!("f64 {:?}", audit::<f64>(100_000));
-    println!("f32 {:?}", audit::<f32>(100_000));
+    let flights = std::env::var("FLIGHTS").map_or(100_000, |flights| flights.parse().unwrap());
+    println!("f64 {:?}", audit::<f64>(flights));
+    println!("f32 {:?}", audit::<f32>(flights));
 }
 
 /// Shapes and flights of any size end in a time, or in none.

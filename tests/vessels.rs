@@ -99,6 +99,9 @@ fn a_ball_in_a_cone_keeps_the_law_of_the_apex() {
     }
 }
 
+/// What a ball is in, where it starts, and the parts.
+type Case = (&'static str, [f64; 3], Vec<Shape<f64>>);
+
 /// A smooth ball keeps its angular momentum about the axis of whatever is round about it, and
 /// its energy.
 #[test]
@@ -108,7 +111,7 @@ fn about_the_axis_of_a_round_part_nothing_turns_a_smooth_ball() {
     let spool = [[0.0, -1.0], [1.0, -1.0], [0.25, 0.0], [1.0, 1.0], [0.0, 0.75]];
     let around = |shape: Shape<f64>| vec![FixedSphere::container([0.0; 3], 4.0).into(), shape];
     let thin = [[0.5, -2.0], [0.5, -1.0], [2.0, 1.0], [2.0, 2.0]];
-    let cases: Vec<(&str, [f64; 3], Vec<Shape<f64>>)> = vec![
+    let cases: Vec<Case> = vec![
         ("sphere", [1.0, 0.0, 0.5], vec![FixedSphere::container([0.0; 3], 3.0).into()]),
         (
             "cylinder",

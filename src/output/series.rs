@@ -35,10 +35,13 @@ pub struct SeriesColumn {
 /// What is in a column.
 #[derive(Clone, Copy, Debug)]
 enum Figure {
-    Of(fn(&Row<'_>) -> Option<f64>),
+    Of(WholeFigure),
     /// Of a part: what it did up to now, and since the row before.
     OfPart(u32, PartFigure),
 }
+
+/// A figure of the whole.
+type WholeFigure = fn(&Row<'_>) -> Option<f64>;
 
 /// A figure of what a part did up to now, and up to the row before and since what time.
 type PartFigure = fn(&PartTotals, Option<(&PartTotals, f64)>) -> Option<f64>;
@@ -75,7 +78,7 @@ fn force(now: &PartTotals, since: Option<(&PartTotals, f64)>, axis: usize) -> Op
 }
 
 /// What the columns of the whole are called.
-const COLUMNS: &[(&str, fn(&Row<'_>) -> Option<f64>)] = columns! {
+const COLUMNS: &[(&str, WholeFigure)] = columns! {
     "time": |row| Some(row.now.time),
     "energy": |row| Some(row.now.energy.total()),
     "kinetic": |row| Some(row.now.energy.kinetic()),

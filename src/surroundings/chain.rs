@@ -63,7 +63,7 @@ impl<T: Real> Chain<T> {
                 let starts_above = L::splat(slant.start[1]).gt(place.height);
                 let ends_above = L::splat(slant.end[1]).gt(place.height);
                 let is_level = (starts_above & !ends_above) | (ends_above & !starts_above);
-                let right = slant.to_the_right(place.distance, place.height);
+                let right = slant.rightward(place.distance, place.height);
                 let is_left =
                     if slant.along[1] > T::ZERO { right.lt(L::ZERO) } else { right.gt(L::ZERO) };
                 let crosses = is_level & is_left;

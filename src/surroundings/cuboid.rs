@@ -34,7 +34,7 @@ pub struct Cuboid<T> {
     /// The corner with the greatest coordinates, length; before the rotation.
     pub upper: Vec3<T>,
     /// How it is turned about its middle; `None`: not at all.
-    rotation: Option<Mat3<T>>,
+    pub rotation: Option<Mat3<T>>,
     /// Whether bodies are inside of it: a container.
     pub inside: bool,
 }

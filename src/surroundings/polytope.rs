@@ -141,12 +141,12 @@ impl<T: Real> Polytope<T> {
     }
 }
 
+/// A point of each plane, and its unit normal.
+type Planes<T> = Vec<(Vec3<T>, Vec3<T>)>;
+
 /// The number of the face that each triangle is of, and of every face a point and the
 /// normal: that of its greatest triangle, for all that lie in one plane with it.
-fn level_faces<T: Real>(
-    points: &[Vec3<T>],
-    triangles: &[[usize; 3]],
-) -> (Vec<usize>, Vec<(Vec3<T>, Vec3<T>)>) {
+fn level_faces<T: Real>(points: &[Vec3<T>], triangles: &[[usize; 3]]) -> (Vec<usize>, Planes<T>) {
     let area = |[a, b, c]: [usize; 3]| (points[b] - points[a]).cross(points[c] - points[a]);
     let sides = |triangle: usize| {
         let [a, b, c] = triangles[triangle];

@@ -118,7 +118,7 @@ impl<T: Real> Revolved<T> {
 
 /// Two lines of a closed profile that meet where they do not follow each other.
 fn meeting<T: Real>(lines: &[Slant<T>]) -> Option<[Slant<T>; 2]> {
-    let side = |line: &Slant<T>, [distance, height]: [T; 2]| line.to_the_right(distance, height);
+    let side = |line: &Slant<T>, [distance, height]: [T; 2]| line.rightward(distance, height);
     let is_apart = |a: &Slant<T>, b: &Slant<T>| {
         let (start, end) = (side(a, b.start), side(a, b.end));
         start * end > T::ZERO

@@ -62,7 +62,7 @@ impl<T: Real> Slant<T> {
 
     /// How far places are to the right of the line, which goes on without end.
     #[inline(always)]
-    pub(super) fn to_the_right<L: Lane<Scalar = T>>(&self, distance: L, height: L) -> L {
+    pub(super) fn rightward<L: Lane<Scalar = T>>(&self, distance: L, height: L) -> L {
         let ([out, up], [far, high]) = (self.along.map(L::splat), self.start.map(L::splat));
         (distance - far) * up - (height - high) * out
     }
@@ -74,7 +74,7 @@ impl<T: Real> Slant<T> {
         let from_start = [distance - L::splat(self.start[0]), height - L::splat(self.start[1])];
         let from_end = [distance - L::splat(self.end[0]), height - L::splat(self.end[1])];
         let along = from_start[0] * out + from_start[1] * up;
-        let right = self.to_the_right(distance, height);
+        let right = self.rightward(distance, height);
         let is_right = right.ge(L::ZERO);
 
         // Between the ends by the line's own normal, which rounding of the place leaves
