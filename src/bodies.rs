@@ -330,7 +330,15 @@ impl<T: Real> Bodies<T> {
     }
 
     /// The same bodies, every number the nearest of another precision.
-    pub(crate) fn cast<B: Real>(&self) -> Bodies<B> {
+    ///
+    /// ```
+    /// # use carom::Bodies;
+    /// let ball = Bodies::from_positions(&[[0.1_f64; 3]]).radius(0.5).build()?;
+    /// assert_eq!(ball.cast::<f32>().position_of(0).x, 0.1_f32);
+    /// # Ok::<(), carom::bodies::BodiesError>(())
+    /// ```
+    #[must_use]
+    pub fn cast<B: Real>(&self) -> Bodies<B> {
         let column = |column: &Column<T>| {
             Column::from_values(column.iter().map(|value| value.cast()), B::ZERO)
         };

@@ -1,5 +1,7 @@
 //! The command line, from the arguments to the exit status.
 
+mod analyse;
+mod analyses;
 mod arguments;
 mod asked;
 mod closed_output;
@@ -45,6 +47,7 @@ pub fn main() -> ExitCode {
             Some(Command::Run(arguments)) => run::run(&arguments),
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
             Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+            Some(Command::Analyse(arguments)) => analyse::analyse(&arguments),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
             Some(Command::Study { study }) => study.run(),

@@ -19,6 +19,7 @@
 //! # Ok::<(), carom::bodies::BodiesError>(())
 //! ```
 
+mod analysis;
 mod blocks;
 mod energy;
 mod fall;
@@ -28,11 +29,13 @@ mod images;
 mod momentum;
 mod of_world;
 mod sample;
+mod species;
 mod standstill;
 #[cfg(feature = "files")]
 mod state_hash;
 mod totals;
 
+pub use analysis::{Analysis, Figure, Findings, Moment, Unfit};
 pub use blocks::Statistic;
 pub use energy::{Energy, energy_scale, integrator_drift};
 pub use fall::fall_energy;
@@ -41,6 +44,7 @@ pub use gas::{Temperature, collision_rate, compressibility};
 pub use images::Images;
 pub use momentum::{AngularMomentum, Momentum};
 pub use sample::Sample;
+pub use species::species;
 pub use standstill::{Standstill, Touched};
 #[cfg(feature = "files")]
 pub use state_hash::{StateHash, state_hash};

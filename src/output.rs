@@ -6,10 +6,13 @@
 //! write into, which has its name only once it is whole.
 
 mod events;
+mod findings;
 #[cfg(feature = "study")]
 mod frames;
 #[cfg(feature = "study")]
 mod npz;
+#[cfg(feature = "study")]
+mod recorded;
 mod sealed;
 mod series;
 mod state;
@@ -19,8 +22,11 @@ mod whole_file;
 #[cfg(feature = "study")]
 pub use events::EventArrays;
 pub use events::{EVENT_COLUMNS, EventFilter, EventWriter};
+pub use findings::write_findings;
 #[cfg(feature = "study")]
 pub use frames::{Frame, FrameFormat, FrameWriter};
+#[cfg(feature = "study")]
+pub use recorded::{FrameError, FramePlace, FrameReader, RecordedFrame};
 pub use sealed::{Unsealed, sealed, unsealed};
 pub use series::{SeriesColumn, SeriesWriter};
 pub use state::{STATE_COLUMNS, write_state};

@@ -73,10 +73,12 @@ pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;
 #[cfg(feature = "files")]
+pub use outputs::AskedAnalysis;
+#[cfg(feature = "files")]
 pub use settings::Written;
 pub use settings::{
-    Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS, OrientationUpdate, Precision,
-    SteppedSettings, Summation,
+    AnalysisKind, AnalysisSettings, Encounters, EngineKind, Impact, MOST_BODIES, MOST_STEPS,
+    OrientationUpdate, Precision, SteppedSettings, Summation,
 };
 #[cfg(feature = "files")]
 pub use source::SceneSource;

@@ -41,6 +41,7 @@ mod sizes;
 mod sphere_tree;
 mod tree;
 
+pub(crate) use near_pairs::for_each_near_pair;
 pub use near_pairs::near_pairs;
 pub use parts::FixedParts;
 pub use periodic::{OpenSpace, PeriodicBox, Space};

@@ -4,12 +4,13 @@ use core::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use carom::engine::{Execution, Lanes, MOST_THREADS, Order};
-use carom::output::FrameFormat;
+use carom::output::{FrameFormat, FrameReader};
 use carom::scene::EngineKind;
-use carom::scene::{DEFAULT_SCENE, Precision};
+use carom::scene::{AnalysisKind, DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
+use super::analyse::KINDS;
 use super::events::bodies;
 use super::study::{Study, StudyFolder};
 
@@ -27,6 +28,7 @@ Examples:
   carom scenes rough-gas > gas.toml     start a scene file of your own
   carom run gas.toml --events e.csv     run it and write down every collision
   carom explain gas.toml                what the engine does for it, and skips
+  carom analyse gas.npz                 what recorded frames amount to
   carom plot gas.csv                    draw a time series of a run
   carom sweep gas.toml --vary spheres[0].radius=0.1:0.3:5   a run for each value
   carom study error gas.toml            what each method costs, and its error
@@ -81,6 +83,22 @@ Examples:
         /// The built-in scene to print.
         name: Option<String>,
     },
+    /// Find in recorded frames how bodies are arranged, and how they move.
+    ///
+    /// Each kind goes into a file of comma-separated values, with its statistical errors.
+    /// `[[analyse]]` in a scene does the same on the way of a run, without frames, and knows
+    /// collisions besides.
+    #[command(after_help = "\
+Examples:
+  carom run gas.toml --record gas.npz --record-every 0.05
+  carom analyse gas.npz                 all kinds, gas-radial-distribution.csv and others
+  carom analyse gas.npz --kind radial-distribution --range 4 --bins 400 --plot
+  carom analyse gas.npz --kind mean-squared-displacement,velocity-autocorrelation --from 5
+  carom analyse gas.dump --every 0.05   a dump has no times
+  carom analyse mix.xyz --kind radial-distribution --species 1,2
+
+Exit status: 0 done, 2 a mistake in the arguments, 1 for frames that cannot be read.")]
+    Analyse(AnalyseArguments),
     /// Draw the columns of a time series against its first one.
     #[command(after_help = "\
 Examples:
@@ -270,6 +288,48 @@ pub struct SweepArguments {
     pub folder: StudyFolder,
 }
 
+/// What `carom analyse` takes.
+#[derive(Args, Debug)]
+pub struct AnalyseArguments {
+    #[arg(help = format!("Recorded frames: {}", FrameReader::ENDINGS))]
+    pub file: PathBuf,
+
+    /// What to find [default: all that the frames allow]
+    #[arg(long, value_name = "KIND,…", value_delimiter = ',', value_parser = one_of(&KINDS))]
+    pub kind: Vec<AnalysisKind>,
+
+    /// Into how many bins the range is divided
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub bins: Option<u64>,
+
+    /// How far it goes, or from where to where: distances, times, wave numbers, speeds in
+    /// units of the thermal one
+    #[arg(long, value_name = "[FROM,]TO", value_parser = range, allow_negative_numbers = true,
+          requires = "kind")]
+    pub range: Option<[Option<f64>; 2]>,
+
+    /// Of which kinds of bodies, counted from 1 as `type` in frames is; of two for the radial
+    /// distribution between them
+    #[arg(long, value_name = "N,…", value_delimiter = ',', allow_negative_numbers = true)]
+    pub species: Vec<u64>,
+
+    /// Leave out the frames before this time
+    #[arg(long, value_name = "TIME", value_parser = time, allow_negative_numbers = true)]
+    pub from: Option<f64>,
+
+    /// Time from one frame to the next, for frames without times
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
+    pub every: Option<f64>,
+
+    /// The folder of the files [default: that of the frames]
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+
+    /// Draw each file too, as NAME.svg
+    #[arg(long)]
+    pub plot: bool,
+}
+
 /// What `carom plot` takes.
 #[derive(Args, Debug)]
 pub struct PlotArguments {
@@ -328,6 +388,16 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
         _ => Err("it must be a finite number greater than 0".to_owned()),
+    }
+}
+
+/// Takes where a range ends, or both of its ends.
+fn range(text: &str) -> Result<[Option<f64>; 2], String> {
+    let wanted = "it must be a number, or two as 1,3";
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wanted.to_owned());
+    match text.split_once(',') {
+        None => Ok([None, Some(number(text)?)]),
+        Some((from, to)) => Ok([Some(number(from)?), Some(number(to)?)]),
     }
 }
 

@@ -6,6 +6,7 @@ use carom::observe::{Temperature, Totals, not_finite, state_hash};
 use carom::real::Real;
 use carom::study::Course;
 
+use super::analyses::Found;
 use super::failure::Failure;
 use super::measured::Measured;
 use super::summary::{Setup, Summary, Work};
@@ -24,6 +25,8 @@ pub struct Ended<'a, T: Real> {
     pub measured: &'a Measured,
     /// The collisions and steps of the first part of a run that goes on.
     pub earlier: (Collisions, u64),
+    /// What the analyses have found.
+    pub found: Vec<Found>,
     /// Wall time before the engine ran, and while it ran, seconds.
     pub seconds: [f64; 2],
 }
@@ -55,6 +58,7 @@ impl<T: Real> Ended<'_, T> {
             fall: self.fall,
             setup_seconds,
             engine_seconds,
+            found: self.found,
             ..Work::of(world)
         };
         let hash = state_hash(bodies);

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use carom::engine::EngineError;
 use carom::observe::Standstill;
+use carom::output::FrameError;
 use carom::scene::EngineKind;
 use carom::scene::SceneError;
 use carom::study::StudyError;
@@ -29,6 +30,9 @@ pub enum Failure {
         /// Why.
         source: OutputError,
     },
+    /// Frames that cannot be read.
+    #[error(transparent)]
+    Frames(#[from] FrameError),
     /// The engine cannot run the scene.
     #[error(transparent)]
     Engine(#[from] EngineError),
@@ -118,6 +122,7 @@ impl Failure {
             | Self::Runs { .. }
             | Self::Write(_)
             | Self::Print(_)
+            | Self::Frames(_)
             | Self::NotFinite { .. } => 1,
         }
     }

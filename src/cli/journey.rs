@@ -5,12 +5,13 @@ use core::cell::OnceCell;
 use core::time::Duration;
 use std::time::Instant;
 
-use carom::engine::World;
+use carom::engine::{Event, World};
 use carom::observe::{Energy, Images, Sample, Temperature};
 use carom::real::Real;
 use carom::space::PeriodicBox;
 use carom::study::Course;
 
+use super::analyses::{Analyses, Found};
 use super::events::Events;
 use super::failure::Failure;
 use super::interrupt;
@@ -32,6 +33,8 @@ pub struct OnTheWay {
     pub record: Option<Recorder>,
     /// Figures.
     pub series: Option<Series>,
+    /// What is found of the bodies.
+    pub analyses: Analyses,
     /// The run itself, to go on from.
     pub keeper: Option<Keeper>,
 }
@@ -40,6 +43,14 @@ impl Drop for OnTheWay {
     fn drop(&mut self) {
         interrupt::keeps(false);
     }
+}
+
+/// What a run has written on its way.
+pub struct Arrived {
+    /// The files, whole but without their final names.
+    pub files: Vec<OutputFile>,
+    /// What the analyses have found.
+    pub found: Vec<Found>,
 }
 
 /// A run under way.
@@ -87,13 +98,12 @@ impl<T: Real> Journey<T> {
         (self.space, self.images.as_ref().map(|(images, _)| images))
     }
 
-    /// Goes all the way, and writes what is to be written. The files come back whole but
-    /// without their final names.
+    /// Goes all the way, and writes what is to be written.
     pub fn travel(
         &mut self,
         world: &mut World<T>,
         mut on_the_way: OnTheWay,
-    ) -> Result<Vec<OutputFile>, Failure> {
+    ) -> Result<Arrived, Failure> {
         let mut progress = Progress::new(self.course, self.energy);
         let mut stretch: u64 = 1;
         let length = self.course.length();
@@ -107,12 +117,7 @@ impl<T: Real> Journey<T> {
         loop {
             let mark = self.mark(&on_the_way);
             let start = Instant::now();
-            let is_there = match &mut on_the_way.events {
-                None => self.course.advance(world, mark, stretch, None)?,
-                Some(events) => events.advance(|on_event| {
-                    self.course.advance(world, mark, stretch, Some(on_event))
-                })?,
-            };
+            let is_there = self.advance(world, &mut on_the_way, mark, stretch)?;
             let taken = start.elapsed();
             self.busy += taken;
             if taken < STRETCH / 2 {
@@ -136,8 +141,39 @@ impl<T: Real> Journey<T> {
         let events = on_the_way.events.take().map(Events::finish).transpose()?;
         let record = on_the_way.record.take().map(Recorder::finish).transpose()?;
         let series = on_the_way.series.take().map(Series::finish).transpose()?;
+        let found = core::mem::take(&mut on_the_way.analyses).finish()?;
+        let (analysed, found): (Vec<OutputFile>, Vec<Found>) = found.into_iter().unzip();
         self.busy += start.elapsed();
-        Ok([events, record, series].into_iter().flatten().collect())
+        let written = [events, record, series].into_iter().flatten();
+        Ok(Arrived { files: written.chain(analysed).collect(), found })
+    }
+
+    /// Goes on for a stretch towards a mark, and tells those that listen of collisions.
+    fn advance(
+        &self,
+        world: &mut World<T>,
+        on_the_way: &mut OnTheWay,
+        mark: f64,
+        stretch: u64,
+    ) -> Result<bool, Failure> {
+        let OnTheWay { events, analyses, .. } = on_the_way;
+        let course = self.course;
+        match (events, analyses.hears()) {
+            (None, false) => Ok(course.advance(world, mark, stretch, None)?),
+            (None, true) => {
+                let hear = &mut |event: &Event<T>| analyses.hear(event);
+                Ok(course.advance(world, mark, stretch, Some(hear))?)
+            }
+            (Some(events), hears) => events.advance(|record| {
+                let both = &mut |event: &Event<T>| {
+                    if hears {
+                        analyses.hear(event);
+                    }
+                    record(event);
+                };
+                course.advance(world, mark, stretch, Some(both))
+            }),
+        }
     }
 
     /// Keeps the run at its end, where it is due, and when it is asked to end, which it
@@ -148,7 +184,7 @@ impl<T: Real> Journey<T> {
         on_the_way: &mut OnTheWay,
         is_end: bool,
     ) -> Result<(), Failure> {
-        let OnTheWay { events, record, series, keeper } = on_the_way;
+        let OnTheWay { events, record, series, analyses, keeper } = on_the_way;
         let Some(keeper) = keeper else { return Ok(()) };
         let asked = interrupt::asked_to_end().filter(|_| !is_end);
         if !is_end && asked.is_none() && !keeper.is_due(Course::position(world)) {
@@ -164,6 +200,7 @@ impl<T: Real> Journey<T> {
             events: events.as_mut().map(Events::keep).transpose()?,
             record: record.as_mut().map(Recorder::keep).transpose()?,
             series: series.as_mut().map(Series::keep).transpose()?,
+            analyses: analyses.kept(),
         };
         keeper.keep(world, notes)?;
         asked.map_or(Ok(()), |status| Err(keeper.ended(world.time(), status)))
@@ -177,14 +214,16 @@ impl<T: Real> Journey<T> {
         let frame = on_the_way.record.as_ref().and_then(Recorder::mark);
         let row = on_the_way.series.as_ref().and_then(Series::mark);
         let kept = on_the_way.keeper.as_ref().and_then(Keeper::mark);
-        [measure, look, frame, row, kept].into_iter().flatten().fold(length, f64::min)
+        let analysed = on_the_way.analyses.mark();
+        [measure, look, frame, row, analysed, kept].into_iter().flatten().fold(length, f64::min)
     }
 
     /// Looks at the bodies, for all that is due.
     fn look(&mut self, world: &World<T>, on_the_way: &mut OnTheWay) -> Result<(), Failure> {
         let position = Course::position(world);
         let length = self.course.length();
-        let OnTheWay { record, series, .. } = on_the_way;
+        let OnTheWay { record, series, analyses, .. } = on_the_way;
+        let is_analysed = analyses.mark() == Some(position);
         let record = record.as_mut().filter(|record| record.mark() == Some(position));
         let series = series.as_mut().filter(|series| series.mark() == Some(position));
         let bodies = OnceCell::new();
@@ -192,7 +231,7 @@ impl<T: Real> Journey<T> {
         while self.measured.mark(length).is_some_and(|mark| mark <= position) {
             self.measured.take(world, position, || Temperature::of(bodies()));
         }
-        let is_read = record.is_some() || series.is_some() || position >= length;
+        let is_read = record.is_some() || series.is_some() || is_analysed || position >= length;
         let images = self.images.as_mut().filter(|(_, look)| is_read || *look <= position);
         if let Some((images, look)) = images {
             let bodies = bodies();
@@ -205,6 +244,9 @@ impl<T: Real> Journey<T> {
         }
         if let Some(series) = series {
             series.row(position, Sample::of(world, bodies(), images))?;
+        }
+        if is_analysed {
+            analyses.look(world, bodies(), self.space, images);
         }
         Ok(())
     }

@@ -15,6 +15,7 @@ use carom::scene::{SceneFile, SceneSource};
 use carom::study::{Course, Schedule};
 use serde::{Deserialize, Serialize};
 
+use super::analyses::KeptAnalysis;
 use super::arguments::RunArguments;
 use super::events::{KeptEvents, shown};
 use super::failure::Failure;
@@ -47,6 +48,7 @@ pub struct Notes {
     pub events: Option<KeptEvents>,
     pub record: Option<KeptFrames>,
     pub series: Option<KeptSeries>,
+    pub analyses: Vec<KeptAnalysis>,
 }
 
 impl Kept {

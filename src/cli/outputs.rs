@@ -7,12 +7,16 @@ use super::failure::Failure;
 use super::kept::Notes;
 use super::output_file::{Destination, KeptFile, OutputError, OutputFile};
 
+/// What names the files of analyses.
+const ANALYSE: &str = "[[analyse]] file";
+
 /// The files of a run.
 pub struct Outputs {
     pub events: Option<OutputFile>,
     pub state: Option<OutputFile>,
     pub record: Option<OutputFile>,
     pub series: Option<OutputFile>,
+    pub analyses: Vec<OutputFile>,
     /// Whether standard output holds one of them, and no summary.
     pub take_standard_output: bool,
 }
@@ -24,6 +28,7 @@ impl Outputs {
         record: Option<&Path>,
         series: Option<&Path>,
         snapshot: Option<&Path>,
+        analyses: &[&Path],
         notes: Option<&Notes>,
     ) -> Result<Self, Failure> {
         let asked = [
@@ -35,7 +40,8 @@ impl Outputs {
         ];
         let mut named: Vec<(&'static str, Destination)> = Vec::new();
         let scene = arguments.scene.scene.as_deref().and_then(|path| path.canonicalize().ok());
-        for (option, path) in asked {
+        let analysed = analyses.iter().map(|path| (ANALYSE, Some(*path)));
+        for (option, path) in asked.into_iter().chain(analysed) {
             let Some(destination) = destination(option, path)? else { continue };
             let is_same = |(_, other): &&(_, _)| *other == destination && !is_device(other);
             if let Some((other, _)) = named.iter().find(is_same) {
@@ -77,6 +83,10 @@ impl Outputs {
             state: open("--state", arguments.state.as_deref())?,
             record: on_the_way("--record", record, kept_record)?,
             series: on_the_way("--series", series, kept_series)?,
+            analyses: analyses
+                .iter()
+                .map(|path| OutputFile::open(path).map_err(refused(ANALYSE)))
+                .collect::<Result<_, _>>()?,
             take_standard_output: named.iter().any(is_standard),
         })
     }

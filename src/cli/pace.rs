@@ -21,6 +21,11 @@ pub struct KeptPace {
 }
 
 impl KeptPace {
+    /// The time from one to the next.
+    pub fn every(&self) -> f64 {
+        self.every
+    }
+
     /// Whether it has this time from one to the next.
     pub fn is_every(&self, every: f64) -> bool {
         self.every == every

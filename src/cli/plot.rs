@@ -11,12 +11,15 @@ use super::output_file::{Destination, OutputError};
 
 /// Columns that are drawn in one chart, with what it shows. All others have a chart of
 /// their own.
-const TOGETHER: [(&str, &[&str]); 6] = [
+const TOGETHER: [(&str, &[&str]); 9] = [
     ("energy", &["energy", "kinetic", "translational", "rotational", "potential"]),
     ("momentum", &["px", "py", "pz"]),
     ("temperature", &["temperature", "spin_temperature"]),
     ("collisions", &["pairs", "surroundings"]),
     ("force", &["force_x", "force_y", "force_z"]),
+    ("density", &["density", "maxwell"]),
+    ("density of times", &["time_density", "time_at_random"]),
+    ("density of paths", &["path_density", "path_at_random"]),
     ("centre of mass", &["center_x", "center_y", "center_z"]),
 ];
 
@@ -27,26 +30,30 @@ type Columns = Vec<(String, Vec<Option<f64>>)>;
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let path = &arguments.file;
     let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("svg"));
+    draw(path, &output, &arguments.columns)
+}
+
+/// Draws columns of a file, or all of them, as a picture.
+pub fn draw(path: &Path, output: &Path, names: &[String]) -> Result<(), Failure> {
+    let shown = output.display();
     if output.extension().is_none_or(|ending| ending != "svg") {
-        let output = output.display();
-        return Err(Failure::Argument(format!("-o is {output}; its ending must be .svg")));
+        return Err(Failure::Argument(format!("-o is {shown}; its ending must be .svg")));
     }
     let refused = |source| Failure::Open { option: "-o", source };
-    let Destination::Regular(target) = Destination::of(&output).map_err(refused)? else {
-        let output = output.display();
-        return Err(Failure::Argument(format!("-o is {output}, no file that can be replaced")));
+    let Destination::Regular(target) = Destination::of(output).map_err(refused)? else {
+        return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
     };
     let mut columns = read(path)?;
     let (time, values) = columns[0].clone();
-    if arguments.columns.is_empty() {
+    if names.is_empty() {
         columns.remove(0);
     }
-    let columns = chosen(columns, &arguments.columns, path)?;
+    let columns = chosen(columns, names, path)?;
     let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
     let svg = Picture { charts: charts(&title, &time, &values, &columns) }.svg();
-    let svg = svg.map_err(|reason| refused(OutputError::Path { path: output.clone(), reason }))?;
+    let svg = svg.map_err(|reason| refused(OutputError::Path { path: output.into(), reason }))?;
     let written = write_whole(&target, svg.as_bytes());
-    written.map_err(|source| OutputError::Write { path: output, source }.into())
+    written.map_err(|source| OutputError::Write { path: output.into(), source }.into())
 }
 
 /// All columns; a field that is no number is `None`.

@@ -12,6 +12,7 @@ use carom::scene::{Precision, Scene, SceneFile};
 use carom::study::Course;
 use carom::surroundings::Shape;
 
+use super::analyses::{Analyses, AskedAnalysis};
 use super::arguments::RunArguments;
 use super::asked::Asked;
 use super::conclusion::Ended;
@@ -90,6 +91,7 @@ fn run_in<T: Compiled>(
     let scene = file.build::<T>()?;
     let is_kept = keeping.is_some() || kept.is_some();
     let events = AskedEvents::of(arguments, scene.bodies.len(), is_kept)?;
+    let analyses = AskedAnalysis::all(file, &scene, (duration, equilibration))?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
     let before = totals_at_start(&scene)?;
     standard_output()?;
@@ -118,10 +120,12 @@ fn run_in<T: Compiled>(
         recording.as_ref().map(|recording| path(&recording.asked)).as_deref(),
         series.as_ref().map(|series| path(&series.asked)).as_deref(),
         snapshot.as_deref(),
+        &analyses.iter().map(|asked| asked.path.as_path()).collect::<Vec<_>>(),
         notes,
     )?;
     let counted = notes.and_then(|notes| notes.images.as_ref());
-    if recording.is_some() || series.is_some() || state_format.is_some() || counted.is_some() {
+    let looks = recording.is_some() || series.is_some() || !analyses.is_empty();
+    if looks || state_format.is_some() || counted.is_some() {
         journey.count_images(&world, counted);
     }
     let record = recording.zip(outputs.record).map(|(recording, file)| {
@@ -135,16 +139,20 @@ fn run_in<T: Compiled>(
     let events = events.zip(outputs.events).map(|(asked, file)| {
         Events::new(asked, file, notes.and_then(|notes| notes.events.as_ref()))
     });
+    let kept = notes.map(|notes| notes.analyses.as_slice());
+    let way = (&world, &course);
+    let analyses = Analyses::new(analyses, outputs.analyses, way, equilibration, kept);
     let on_the_way = OnTheWay {
         events: events.transpose()?,
         record: record.transpose()?,
         series: series.transpose()?,
+        analyses,
         keeper,
     };
     drop(setting_up);
     let setup_seconds = start.elapsed().as_secs_f64();
 
-    let written = journey
+    let arrived = journey
         .travel(&mut world, on_the_way)
         .map_err(|failure| explained(failure, &world, &shapes))?;
 
@@ -160,6 +168,7 @@ fn run_in<T: Compiled>(
         equilibration,
         measured: journey.measured(),
         earlier,
+        found: arrived.found,
         seconds: [setup_seconds, journey.seconds()],
     };
     let summary = ended.summary()?;
@@ -170,7 +179,7 @@ fn run_in<T: Compiled>(
     let frame = Frame { time, step: world.steps(), bodies: &bodies, space, images };
     let state = outputs.state.map(|file| in_format(state_format, file, &frame)).transpose()?;
     // All are whole before one of them gets its name.
-    for file in written.into_iter().chain(state) {
+    for file in arrived.files.into_iter().chain(state) {
         file.finish()?;
     }
     show(&summary, arguments.json, outputs.take_standard_output)

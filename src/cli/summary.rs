@@ -17,6 +17,7 @@ use carom::real::Real;
 use carom::scene::{EngineKind, Impact, Scene};
 use carom::vec3::Vec3;
 
+use super::analyses::Found;
 use super::measured::Reading;
 
 /// The corners of a box.
@@ -123,6 +124,8 @@ pub struct Work {
     /// Mean translational temperature of what was measured; `None` for fewer than two
     /// bodies.
     pub mean_temperature: Option<f64>,
+    /// What the analyses have found.
+    pub found: Vec<Found>,
     /// The potential energy that bodies can fall through.
     pub fall: f64,
     /// Wall time before the engine ran, seconds.
@@ -252,6 +255,9 @@ pub struct Summary {
     /// Means of the gas, each with its statistical error.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub statistics: BTreeMap<&'static str, Statistic>,
+    /// What was found of the bodies, in the order of the scene file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub analyses: Vec<Found>,
     /// Hash of the bits of the final state.
     pub state_hash: StateHash,
     /// Wall time, seconds: set-up, the engine, and writing events.
@@ -280,6 +286,7 @@ impl Work {
             parts: world.parts(),
             statistics: BTreeMap::new(),
             mean_temperature: None,
+            found: Vec::new(),
             fall: 0.0,
             setup_seconds: 0.0,
             engine_seconds: 0.0,
@@ -330,6 +337,7 @@ impl Summary {
             mean_free_path: measured.mean_free_path(),
             equilibrate: (work.equilibration > 0.0).then_some(work.equilibration),
             statistics: work.statistics.clone(),
+            analyses: work.found.clone(),
             state_hash,
             wall_seconds: setup_seconds + engine_seconds,
             setup_seconds,

@@ -48,7 +48,9 @@ use crate::vec3::Vec3;
 ///
 /// `[record]` has the `file` of frames that a run writes, and `every` how much time;
 /// `[series]` the same of a time series, and the `columns` in it; `[snapshot]` where and
-/// how `every` much time, or `wall` minutes, a run is kept.
+/// how `every` much time, or `wall` minutes, a run is kept. `[[analyse]]` have the `kind` of
+/// an [analysis](super::AnalysisKind), `every` how much time the bodies are looked at, the
+/// `file`, and what is chosen: `bins`, `range`, `species`.
 ///
 /// `[surface]` has `kind = "smooth"`, the default, or `"rough"`.
 /// `[[surroundings]]` have a `shape` and its keys: `"plane"`, `"box"`, `"sphere"`,

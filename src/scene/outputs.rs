@@ -3,8 +3,19 @@
 
 use super::error::{Problem, SceneError};
 use super::file::{SceneFile, number};
-use super::raw::{Number, RawSeries, RawSnapshot, RawWritten};
-use super::settings::Written;
+use super::raw::{Number, RawAnalyse, RawSeries, RawSnapshot, RawWritten, Whole};
+use super::settings::{AnalysisKind, AnalysisSettings, Written};
+use super::spheres::Spread;
+
+/// An entry of `[[analyse]]`.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AskedAnalysis {
+    /// What is analysed.
+    pub settings: AnalysisSettings,
+    /// Where it is written, and how often the bodies are looked at.
+    pub written: Written,
+}
 
 impl SceneFile {
     /// `[record]`: the frames that a run writes.
@@ -14,6 +25,19 @@ impl SceneFile {
     pub fn record(&self) -> Result<Written, SceneError> {
         let RawWritten { file, every } = &self.raw.record;
         self.written("record", file.as_deref(), *every)
+    }
+
+    /// A path in the folder of the scene file.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let file = SceneFile::parse("gas", "")?;
+    /// assert_eq!(file.in_folder("gas.csv"), std::path::Path::new("gas.csv"));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn in_folder(&self, name: &str) -> std::path::PathBuf {
+        self.folder.join(name)
     }
 
     /// `[series]`: the time series that a run writes.
@@ -71,6 +95,44 @@ impl SceneFile {
     pub fn mistake(&self, key: &str, found: &str, wanted: &str) -> SceneError {
         let problem = Problem::Value { found: found.to_owned(), wanted: wanted.to_owned() };
         self.origin().error(key, problem)
+    }
+
+    /// `[[analyse]]`: what is analysed on the way of a run.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let text = "[[analyse]]\nkind = \"structure-factor\"\nrange = 20\nevery = 0.5\n";
+    /// let analyses = SceneFile::parse("gas", text)?.analyses()?;
+    /// assert_eq!(analyses[0].settings.range, Some([None, Some(20.0)]));
+    /// assert_eq!(analyses[0].written.every, Some(0.5));
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If one has no `kind`, or its `every` is no length of time.
+    pub fn analyses(&self) -> Result<Vec<AskedAnalysis>, SceneError> {
+        let read = |(index, raw): (usize, &RawAnalyse)| {
+            let entry = format!("analyse[{index}]");
+            let kinds = || AnalysisKind::ALL.map(|kind| format!("\"{}\"", kind.name())).join(", ");
+            let kind = raw.kind.ok_or_else(|| {
+                let wanted = format!("it must be one of {}", kinds());
+                self.origin().error(format!("{entry}.kind"), Problem::missing(&wanted))
+            })?;
+            let range = raw.range.map(|range| match range {
+                Spread::Same(to) => [None, Some(to)],
+                Spread::Uniform { least, greatest } => [Some(least), Some(greatest)],
+            });
+            let whole = |whole: &Whole| whole.0;
+            let settings = AnalysisSettings {
+                kind,
+                bins: raw.bins.as_ref().map(whole),
+                range,
+                species: raw.species.as_ref().map(|species| species.iter().map(whole).collect()),
+            };
+            let written = self.written(&entry, raw.file.as_deref(), raw.every)?;
+            Ok(AskedAnalysis { settings, written })
+        };
+        self.raw.analyse.iter().enumerate().map(read).collect()
     }
 
     fn written(

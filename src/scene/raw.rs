@@ -10,7 +10,9 @@ use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAc
 
 pub(super) use surroundings::{KEYS, RawRotation, RawSurroundings};
 
-use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Precision, Summation};
+use super::settings::{
+    AnalysisKind, Encounters, EngineKind, Impact, OrientationUpdate, Precision, Summation,
+};
 use super::spheres::{Arrangement, Spread};
 use crate::contact::Surface;
 use crate::motion::Integrator;
@@ -40,6 +42,8 @@ pub(super) struct RawScene {
     pub(super) series: RawSeries,
     #[serde(default)]
     pub(super) snapshot: RawSnapshot,
+    #[serde(default)]
+    pub(super) analyse: Vec<RawAnalyse>,
 }
 
 impl RawScene {
@@ -84,6 +88,18 @@ pub(super) struct RawSnapshot {
     pub(super) file: Option<String>,
     pub(super) every: Option<Number>,
     pub(super) wall: Option<Number>,
+}
+
+/// `[[analyse]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawAnalyse {
+    pub(super) kind: Option<AnalysisKind>,
+    pub(super) file: Option<String>,
+    pub(super) every: Option<Number>,
+    pub(super) bins: Option<Whole>,
+    pub(super) range: Option<Spread>,
+    pub(super) species: Option<Vec<Whole>>,
 }
 
 /// `[surface]`.

@@ -229,6 +229,90 @@ pub struct Written {
     pub every: Option<f64>,
 }
 
+/// What of the bodies is analysed on the way of a run, or in the frames of one.
+///
+/// ```
+/// use carom::scene::AnalysisKind;
+/// assert_eq!(AnalysisKind::BondOrder.name(), "bond-order");
+/// assert_eq!(AnalysisKind::ALL.len(), 7);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum AnalysisKind {
+    /// How many bodies are at a distance from another, `g(r)`.
+    RadialDistribution,
+    /// How far bodies have moved after a time.
+    MeanSquaredDisplacement,
+    /// How much of a velocity is left after a time.
+    VelocityAutocorrelation,
+    /// How many bodies have a speed.
+    SpeedDistribution,
+    /// How long bodies fly from one collision to the next, and how far.
+    CollisionStatistics,
+    /// How the neighbours of a body are arranged, `q₆`.
+    BondOrder,
+    /// The density in waves, `S(k)`.
+    StructureFactor,
+}
+
+impl AnalysisKind {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::RadialDistribution,
+        Self::MeanSquaredDisplacement,
+        Self::VelocityAutocorrelation,
+        Self::SpeedDistribution,
+        Self::CollisionStatistics,
+        Self::BondOrder,
+        Self::StructureFactor,
+    ];
+
+    /// What the scene file calls it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RadialDistribution => "radial-distribution",
+            Self::MeanSquaredDisplacement => "mean-squared-displacement",
+            Self::VelocityAutocorrelation => "velocity-autocorrelation",
+            Self::SpeedDistribution => "speed-distribution",
+            Self::CollisionStatistics => "collision-statistics",
+            Self::BondOrder => "bond-order",
+            Self::StructureFactor => "structure-factor",
+        }
+    }
+}
+
+/// An analysis and what is chosen of it; what is not chosen is by the bodies.
+///
+/// ```
+/// use carom::scene::{AnalysisKind, AnalysisSettings};
+/// let usual = AnalysisSettings::of(AnalysisKind::RadialDistribution);
+/// let settings = AnalysisSettings { bins: Some(400), range: Some([None, Some(3.0)]), ..usual };
+/// assert_eq!(settings.species, None);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnalysisSettings {
+    /// What is analysed.
+    pub kind: AnalysisKind,
+    /// Into how many bins the range is divided.
+    pub bins: Option<u64>,
+    /// From where to where it goes: distances, times, wave numbers, scaled speeds.
+    pub range: Option<[Option<f64>; 2]>,
+    /// Of which kinds of bodies, as [`species`](crate::observe::species) counts them from 1;
+    /// of all by default.
+    pub species: Option<Vec<u64>>,
+}
+
+impl AnalysisSettings {
+    /// An analysis with nothing chosen.
+    #[must_use]
+    pub fn of(kind: AnalysisKind) -> Self {
+        Self { kind, bins: None, range: None, species: None }
+    }
+}
+
 /// The most bodies that a scene may have: one hundred million.
 ///
 /// ```

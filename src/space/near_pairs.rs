@@ -34,6 +34,19 @@ pub fn near_pairs<T: Real>(
     periodic: Option<PeriodicBox<T>>,
     gap: T,
 ) -> Vec<[u32; 2]> {
+    let mut pairs = Vec::new();
+    for_each_near_pair(bodies, periodic, gap, |a, b| pairs.push([a.min(b), a.max(b)]));
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Visits the same pairs in an order that depends on nothing but the bodies.
+pub(crate) fn for_each_near_pair<T: Real>(
+    bodies: &Bodies<T>,
+    periodic: Option<PeriodicBox<T>>,
+    gap: T,
+    mut visit: impl FnMut(u32, u32),
+) {
     let (len, skin) = (bodies.len(), gap.greater(T::ZERO));
     let workers = Workers::default();
     let center = |index: usize| {
@@ -65,17 +78,10 @@ pub fn near_pairs<T: Real>(
         Surveyed { position: &position, radius: &radius, periodic, parts: &Nothing, pairs: true };
     let mut candidates = Candidates::default();
     broad_phase.search::<T::Pack8, _>(&surveyed, skin, &mut candidates, &workers);
-    let mut pairs: Vec<[u32; 2]> = candidates
-        .chunks
-        .iter()
-        .flat_map(|chunk| chunk.pairs.iter().flatten())
-        .map(|pair| {
-            let [a, b] = pair.map(|slot| order[slot as usize]);
-            [a.min(b), a.max(b)]
-        })
-        .collect();
-    pairs.sort_unstable();
-    pairs
+    let found = candidates.chunks.iter().flat_map(|chunk| chunk.pairs.iter().flatten());
+    for [a, b] in found {
+        visit(order[*a as usize], order[*b as usize]);
+    }
 }
 
 fn columns<T: Real>(len: usize, point: impl Fn(usize) -> Vec3<T>) -> Columns3<T> {

@@ -204,6 +204,29 @@ fn decoded(text: &str) -> Vec<u8> {
     bytes
 }
 
+#[test]
+fn numbers_that_stop_being_one_are_all_there() {
+    // At rest until a ball comes: its velocity is 0, then is not, then is again.
+    let scene = "duration = 3\n[[spheres]]\nposition = [0, 0, 0]\nradius = 0.5\n\
+                 [[spheres]]\nposition = [0, 0, 2]\nradius = 0.5\nvelocity = [0, 0, -1]\n\
+                 [[spheres]]\nposition = [0, 0, -2]\nradius = 0.5\n";
+    let folder = Folder::with(scene);
+    folder.says("run scene.toml --record run.npz --record-every 0.75").well();
+    let mut bytes = Vec::new();
+    File::open(folder.path("run.npz")).unwrap().read_to_end(&mut bytes).unwrap();
+    let entries = entries(&bytes);
+    let of = |name: &str| {
+        let data = &entries.iter().find(|(other, _)| other == name).unwrap().1;
+        let numbers = data[data.len() - 5 * 3 * 8..].chunks(8);
+        numbers.map(|number| f64::from_le_bytes(number.try_into().unwrap())).collect::<Vec<_>>()
+    };
+    let before = [0.0, -1.0, 0.0];
+    let (between, behind) = ([-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]);
+    assert_eq!(of("vz.npy"), [before, before, between, behind, behind].as_flattened());
+    assert_eq!(of("vx.npy"), [0.0; 15]);
+    assert_eq!(of("z.npy")[..6], [0.0, 2.0, -2.0, 0.0, 1.25, -2.0]);
+}
+
 /// The entries of an archive, by its local headers: name and bytes.
 fn entries(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut reader = Cursor::new(bytes);
@@ -240,7 +263,7 @@ fn arrays_of_numpy_are_frames_by_bodies() {
     let entries = entries(&bytes);
     let names: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names[..4], ["time.npy", "x.npy", "y.npy", "z.npy"]);
-    assert_eq!(names.len(), 20);
+    assert_eq!(names[20..], ["lower.npy", "upper.npy"]);
     let array = |name: &str, shape: &str| {
         let data = &entries.iter().find(|(other, _)| other == name).unwrap().1;
         assert_eq!(&data[..8], b"\x93NUMPY\x01\x00");
@@ -255,6 +278,11 @@ fn arrays_of_numpy_are_frames_by_bodies() {
     let x = array("x.npy", "(3, 256)");
     assert_eq!(x[512..], state(&folder, "x"));
     assert_eq!(array("radius.npy", "(3, 256)"), vec![0.5; 3 * 256]);
+    // What all bodies share has as many numbers as what they do not.
+    assert_eq!(array("qw.npy", "(3, 256)"), vec![1.0; 3 * 256]);
+    assert_eq!(array("wz.npy", "(3, 256)"), vec![0.0; 3 * 256]);
+    let (lower, upper) = (array("lower.npy", "(3,)"), array("upper.npy", "(3,)"));
+    assert_eq!((lower, upper), (vec![0.0; 3], vec![8.0; 3]));
 }
 
 #[test]

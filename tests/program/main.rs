@@ -1,5 +1,6 @@
 //! The program from outside: what it prints, what it writes, what it refuses.
 
+mod analyses;
 mod bad_input;
 mod cases;
 mod ends;

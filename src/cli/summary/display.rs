@@ -32,6 +32,9 @@ impl fmt::Display for Summary {
         if !gas.is_empty() {
             writeln!(f, "{gas}")?;
         }
+        for found in &self.analyses {
+            writeln!(f, "{}", found.table())?;
+        }
         writeln!(f, "state hash  {}", self.state_hash)?;
         writeln!(f, "All quantities are in the scene's own units.")
     }

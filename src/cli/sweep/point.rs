@@ -84,6 +84,7 @@ fn run<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<Summary, F
         equilibration,
         measured: &measured,
         earlier: Default::default(),
+        found: Vec::new(),
         seconds: [setup_seconds, start.elapsed().as_secs_f64()],
     };
     ended.summary()

@@ -5,8 +5,9 @@
 use std::io;
 
 use super::Frame;
-use super::figures::{bounds, kinds, quaternion_of};
-use super::rows::{self, numbers, whole};
+use super::figures::{bounds, quaternion_of};
+use super::rows::{self, Figures, numbers, whole};
+use crate::observe::species;
 use crate::real::Real;
 
 /// The columns. `ix iy iz` are the images, the `quat` the orientation.
@@ -29,10 +30,11 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
     }
     head.extend_from_slice(format!("ITEM: ATOMS {COLUMNS}\n").as_bytes());
     output.write_all(&head)?;
-    let kinds = kinds(bodies);
+    let species = species(bodies);
+    let figures = Figures::of(bodies);
     rows::write(output, bodies.len(), |row, index| {
-        whole(row, [index as i64 + 1, i64::from(kinds[index])]);
-        numbers(row, [bodies.radius.of(index), bodies.mass.of(index)]);
+        whole(row, [index as i64 + 1, i64::from(species[index])]);
+        figures.add(row, bodies, index);
         numbers(row, bodies.position_of(index).to_array());
         whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());

@@ -1,33 +1,9 @@
 //! Figures: what a frame says of each body, in the terms of the formats.
 
-use std::collections::HashMap;
-
 use super::Frame;
-use crate::bodies::{Bodies, PerBody};
+use crate::bodies::Bodies;
 use crate::mat3::Mat3;
 use crate::real::Real;
-
-/// The most kinds of bodies that have types of their own; where there are more, all have one.
-const MOST_KINDS: usize = 64;
-
-/// The kind of each body, from 1 in the order in which they appear: those of one kind
-/// have one radius and one mass.
-pub fn kinds<T: Real>(bodies: &Bodies<T>) -> Vec<u32> {
-    if let (PerBody::Same(_), PerBody::Same(_)) = (&bodies.radius, &bodies.mass) {
-        return vec![1; bodies.len()];
-    }
-    let mut known: HashMap<[u64; 2], u32> = HashMap::new();
-    let mut kinds = Vec::with_capacity(bodies.len());
-    for index in 0..bodies.len() {
-        let figures = [bodies.radius.of(index), bodies.mass.of(index)];
-        let next = known.len() as u32 + 1;
-        kinds.push(*known.entry(figures.map(|figure| figure.to_f64().to_bits())).or_insert(next));
-        if known.len() > MOST_KINDS {
-            return vec![1; bodies.len()];
-        }
-    }
-    kinds
-}
 
 /// The corners of the periodic box, or of the box around all bodies.
 pub fn bounds<T: Real>(frame: &Frame<'_, T>) -> [[T; 3]; 2] {
@@ -113,16 +89,5 @@ mod tests {
                 approx::assert_abs_diff_eq!(*found, given, epsilon = 1e-15);
             }
         }
-    }
-
-    #[test]
-    fn kinds_are_counted_as_they_appear() {
-        let positions: Vec<[f64; 3]> = (0..100).map(|k| [3.0 * f64::from(k), 0.0, 0.0]).collect();
-        let radii: Vec<f64> = (0..100).map(|k| [1.0, 0.5, 1.0][k % 3]).collect();
-        let few = Bodies::from_positions(&positions).radii(&radii).build().unwrap();
-        assert_eq!(kinds(&few)[..4], [1, 2, 1, 1]);
-        let radii: Vec<f64> = (0..100).map(|k| 1.0 - 0.001 * f64::from(k)).collect();
-        let many = Bodies::from_positions(&positions).radii(&radii).build().unwrap();
-        assert_eq!(kinds(&many), vec![1; 100]);
     }
 }

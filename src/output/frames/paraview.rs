@@ -11,7 +11,8 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::super::{Listed, WholeFile};
 use super::Frame;
-use super::figures::{kinds, quaternion_of};
+use super::figures::quaternion_of;
+use crate::observe::species;
 use crate::real::Real;
 
 /// A series under way. The files of its frames are whole one by one; if the series does
@@ -107,7 +108,7 @@ fn write_points<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> 
     array(output, "offsets", 1, each().map(|k| k as i64 + 1))?;
     writeln!(output, "    </Verts>\n    <PointData>")?;
     array(output, "id", 1, each().map(|k| k as i64))?;
-    array(output, "type", 1, kinds(bodies).into_iter().map(i64::from))?;
+    array(output, "type", 1, species(bodies).into_iter().map(i64::from))?;
     array(output, "radius", 1, each().map(|k| bodies.radius.of(k)))?;
     array(output, "mass", 1, each().map(|k| bodies.mass.of(k)))?;
     array(output, "v", 3, vectors(&|k| bodies.velocity_of(k).to_array()))?;

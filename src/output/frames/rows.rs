@@ -5,6 +5,7 @@ use std::io::{self, Write as _};
 use rayon::prelude::*;
 
 use super::super::push_number;
+use crate::bodies::{Bodies, PerBody};
 use crate::real::Real;
 
 /// Bodies whose text one thread makes at a time.
@@ -40,6 +41,28 @@ pub fn write<W: io::Write>(
         }
     }
     Ok(())
+}
+
+/// The text of radius and mass, made once where all bodies have the same.
+pub struct Figures(Option<Vec<u8>>);
+
+impl Figures {
+    pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
+        let (PerBody::Same(radius), PerBody::Same(mass)) = (&bodies.radius, &bodies.mass) else {
+            return Self(None);
+        };
+        let mut text = Vec::new();
+        numbers(&mut text, [*radius, *mass]);
+        Self(Some(text))
+    }
+
+    /// Adds those of a body.
+    pub fn add<T: Real>(&self, row: &mut Vec<u8>, bodies: &Bodies<T>, index: usize) {
+        match &self.0 {
+            Some(text) => row.extend_from_slice(text),
+            None => numbers(row, [bodies.radius.of(index), bodies.mass.of(index)]),
+        }
+    }
 }
 
 /// Adds numbers, each with a space behind it.

@@ -3,8 +3,9 @@
 use std::io;
 
 use super::Frame;
-use super::figures::{bounds, kinds, quaternion_of};
-use super::rows::{self, numbers, whole};
+use super::figures::{bounds, quaternion_of};
+use super::rows::{self, Figures, numbers, whole};
+use crate::observe::species;
 use crate::real::Real;
 
 /// The columns, with the names that OVITO knows; its quaternions end with w.
@@ -28,17 +29,18 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
     let periodic = if frame.space.is_some() { "T T T" } else { "F F F" };
     head.extend_from_slice(format!("pbc=\"{periodic}\"\n").as_bytes());
     output.write_all(&head)?;
-    let kinds = kinds(bodies);
-    let are_alike = kinds.iter().all(|kind| *kind == 1);
+    let species = species(bodies);
+    let are_alike = species.iter().all(|kind| *kind == 1);
+    let figures = Figures::of(bodies);
     rows::write(output, bodies.len(), |row, index| {
         row.push(b'X');
         if !are_alike {
-            row.extend_from_slice(kinds[index].to_string().as_bytes());
+            row.extend_from_slice(species[index].to_string().as_bytes());
         }
         row.push(b' ');
         numbers(row, bodies.position_of(index).to_array());
         whole(row, [index as i64]);
-        numbers(row, [bodies.radius.of(index), bodies.mass.of(index)]);
+        figures.add(row, bodies, index);
         whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());
         numbers(row, bodies.spin_of(index).to_array());

@@ -47,12 +47,25 @@ impl<W: Write> Archive<W> {
         extra(central, &[size, size, self.offset]);
 
         self.output.write_all(&local)?;
-        let copied = io::copy(data, &mut self.output)?;
-        if copied != size {
-            return Err(io::ErrorKind::UnexpectedEof.into());
-        }
+        self.copy(size, data)?;
         self.offset += local.len() as u64 + size;
         self.entries += 1;
+        Ok(())
+    }
+
+    /// Copies the bytes of an entry, in pieces large enough to cost few calls.
+    fn copy(&mut self, size: u64, data: &mut dyn Read) -> io::Result<()> {
+        let mut buffer = vec![0; 1 << 18];
+        let mut left = size;
+        while left > 0 {
+            let most = left.min(buffer.len() as u64) as usize;
+            let count = data.read(&mut buffer[..most])?;
+            if count == 0 {
+                return Err(io::ErrorKind::UnexpectedEof.into());
+            }
+            self.output.write_all(&buffer[..count])?;
+            left -= count as u64;
+        }
         Ok(())
     }
 
