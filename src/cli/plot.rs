@@ -115,6 +115,7 @@ fn charts(
             color: Some(series.len()),
             mark: Mark::Line,
             points: points.collect(),
+            ..Series::default()
         });
     }
     charts
