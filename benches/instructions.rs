@@ -32,7 +32,7 @@ use carom::mat3::Mat3;
 use carom::motion::rotation::turned;
 use carom::real::Real;
 use carom::scene::Impact;
-use carom::surroundings::{Cuboid, Cylinder, Feature, FixedSphere, Plane, Torus};
+use carom::surroundings::{Cuboid, Cylinder, Feature, FixedSphere, Plane, Shape, Torus};
 use carom::vec3::Vec3;
 use columns::uniform;
 use fluid::Fluid;
@@ -243,7 +243,9 @@ fn times(rows: &mut Vec<Row>) {
         ("a box", Cuboid::solid([-2.0; 3], [2.0; 3]).into()),
         (
             "a cylinder",
-            Cylinder::solid([0.0; 3], [0.0, 0.0, 1.0], 2.0, 2.0).features().swap_remove(0),
+            Shape::from(Cylinder::solid([0.0; 3], [0.0, 0.0, 1.0], 2.0, Some(2.0)))
+                .features()
+                .swap_remove(0),
         ),
         ("a torus", Torus::solid([0.0; 3], [0.0, 0.0, 1.0], 3.0, 1.0).into()),
     ];
