@@ -36,6 +36,7 @@ pub mod invariants;
 mod journal;
 mod machine;
 mod memory;
+mod others;
 mod point;
 pub mod precision;
 pub mod scaling;

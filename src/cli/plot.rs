@@ -122,6 +122,7 @@ fn charts(
             color: Some(series.len()),
             mark: Mark::Line,
             points: points.collect(),
+            ..Series::default()
         });
     }
     charts

@@ -2,6 +2,7 @@
 
 mod axis;
 
+use std::ops::Add;
 use std::path::Path;
 use std::sync::Once;
 
@@ -22,13 +23,24 @@ pub enum Mark {
     Line,
     /// Joined by a line of dashes: for laws.
     Dashes,
-    /// Joined, and each with a disc.
+    /// Joined, and each with a marker.
     #[default]
-    LineAndDiscs,
-    /// Joined by a line of dashes, and each with a disc.
-    DashesAndDiscs,
+    LineAndMarkers,
     /// Each by itself, as a ring: for points that stand out.
     Rings,
+    /// Joined by a thin line of dashes with its name at the end, and not in the legend: for
+    /// the slope of a law, or a bound.
+    Guide,
+}
+
+/// What a marker looks like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shape {
+    /// A disc.
+    #[default]
+    Disc,
+    /// A square.
+    Square,
 }
 
 /// Points that belong together.
@@ -40,8 +52,12 @@ pub struct Series {
     pub color: Option<usize>,
     /// How the points are drawn.
     pub mark: Mark,
+    /// What markers look like.
+    pub shape: Shape,
     /// In the order in which they are joined.
     pub points: Vec<(f64, f64)>,
+    /// From where to where single points may lie.
+    pub bars: Vec<[(f64, f64); 2]>,
 }
 
 /// A chart: two axes and what lies between them.
@@ -69,14 +85,14 @@ fn png(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::Encod
     Ok(bytes)
 }
 
-/// Charts side by side; more than three stand in rows of two.
+/// Charts side by side, each with its legend below; more than three stand in rows of two.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
     /// From left to right, and from the top down.
     pub charts: Vec<Chart>,
 }
 
-/// Of a chart, pixels.
+/// Of a chart without its legend, pixels.
 const SIZE: (u32, u32) = (640, 480);
 
 /// Around a chart, pixels.
@@ -143,8 +159,9 @@ impl Picture {
 
     /// Width and height, pixels.
     fn size(&self) -> (u32, u32) {
-        let widths = self.rows().map(|row| row.iter().map(Chart::width).sum::<u32>());
-        (widths.max().unwrap_or(1), SIZE.1 * self.rows().count().max(1) as u32)
+        let charts = self.rows().map(<[Chart]>::len).max().unwrap_or(1).max(1);
+        let height = self.rows().map(row_height).sum::<u32>();
+        (SIZE.0 * charts as u32, height.max(1))
     }
 
     fn draw<B: DrawingBackend>(
@@ -159,9 +176,9 @@ impl Picture {
         area.fill(&WHITE).map_err(|error| error.to_string())?;
         let mut below = area.clone();
         for row in self.rows() {
-            let (mut rest, next) = below.split_vertically(SIZE.1);
+            let (mut rest, next) = below.split_vertically(row_height(row));
             for chart in row {
-                let (own, right) = rest.split_horizontally(chart.width());
+                let (own, right) = rest.split_horizontally(SIZE.0);
                 chart.draw(&own)?;
                 rest = right;
             }
@@ -171,9 +188,31 @@ impl Picture {
     }
 }
 
+/// The height of charts side by side, pixels.
+fn row_height(row: &[Chart]) -> u32 {
+    SIZE.1 + row.iter().map(Chart::legend_height).max().unwrap_or(0)
+}
+
+/// A marker at a place.
+type MarkerAt<C, B> = <EmptyElement<C, B> as Add<Polygon<(i32, i32)>>>::Output;
+
 impl Series {
     fn color(&self) -> RGBColor {
         self.color.map_or(RGBColor(120, 120, 120), |k| PALETTE[k % PALETTE.len()])
+    }
+
+    /// The marker of a point, as a polygon: of a disc with so many corners that none is seen.
+    fn marker<C, B: DrawingBackend>(&self, place: C) -> MarkerAt<C, B> {
+        let corners = match self.shape {
+            Shape::Disc => (0..16)
+                .map(|k| f64::from(k) * std::f64::consts::TAU / 16.0)
+                .map(|angle| {
+                    ((4.0 * angle.cos()).round() as i32, (4.0 * angle.sin()).round() as i32)
+                })
+                .collect(),
+            Shape::Square => vec![(-3, -3), (3, -3), (3, 3), (-3, 3)],
+        };
+        EmptyElement::at(place) + Polygon::new(corners, self.color().filled())
     }
 }
 
@@ -187,42 +226,44 @@ impl Chart {
 
     /// Those that the legend names.
     fn named(&self) -> impl Iterator<Item = &Series> {
-        self.series.iter().filter(|series| !series.name.is_empty())
+        self.series.iter().filter(|series| !series.name.is_empty() && series.mark != Mark::Guide)
     }
 
-    /// How wide the legend is, roughly, pixels.
-    fn legend_width(&self) -> u32 {
-        let longest = self.named().map(|series| series.name.chars().count()).max();
-        longest.map_or(0, |letters| letters as u32 * 8 + 50)
+    /// How wide an entry of the legend is, pixels; as many as fit stand side by side.
+    fn legend_entry(&self) -> u32 {
+        let longest = self.named().map(|series| series.name.chars().count()).max().unwrap_or(0);
+        let width = SIZE.0 - LABELS as u32;
+        width / (width / (longest as u32 * 8 + 48)).max(1)
     }
 
-    /// How wide it is with its legend, pixels.
-    fn width(&self) -> u32 {
-        SIZE.0 + self.legend_width()
+    fn legend_height(&self) -> u32 {
+        let columns = (SIZE.0 - LABELS as u32) / self.legend_entry();
+        self.named().count().div_ceil(columns as usize) as u32 * LINE as u32
     }
 
-    /// What each series is called: beside the chart, where it hides nothing.
+    /// What each series is called: below the chart, where it hides nothing.
     fn legend<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        for (k, series) in self.named().enumerate() {
-            let (x, y) = (4, 50 + LINE * k as i32);
+        let entry = self.legend_entry() as i32;
+        let columns = (SIZE.0 as i32 - LABELS) / entry;
+        for (k, series) in (0..).zip(self.named()) {
+            let (x, y) = (LABELS + k % columns * entry, LINE * (k / columns) + LINE / 2 - 4);
             let stroke = series.color().stroke_width(2);
             let dash = |from: i32, to: i32| PathElement::new([(x + from, y), (x + to, y)], stroke);
             match series.mark {
-                Mark::Line | Mark::LineAndDiscs => area.draw(&dash(0, 24))?,
-                Mark::Dashes | Mark::DashesAndDiscs => {
-                    area.draw(&dash(0, 6))?;
-                    area.draw(&dash(18, 24))?;
-                    if series.mark == Mark::Dashes {
-                        area.draw(&dash(9, 15))?;
+                Mark::Line | Mark::LineAndMarkers => area.draw(&dash(0, 24))?,
+                Mark::Dashes => {
+                    for from in [0, 9, 18] {
+                        area.draw(&dash(from, from + 6))?;
                     }
                 }
                 Mark::Rings => area.draw(&Circle::new((x + 12, y), 6, stroke))?,
+                Mark::Guide => {}
             }
-            if matches!(series.mark, Mark::LineAndDiscs | Mark::DashesAndDiscs) {
-                area.draw(&Circle::new((x + 12, y), 3, series.color().filled()))?;
+            if series.mark == Mark::LineAndMarkers {
+                area.draw(&series.marker((x + 12, y)))?;
             }
             let text =
                 TextStyle::from((FONT, 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
@@ -235,18 +276,19 @@ impl Chart {
         &self,
         area: &DrawingArea<B, plotters::coord::Shift>,
     ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        let points = || self.series.iter().flat_map(|series| series.points.iter());
-        let (area, beside) = area.split_horizontally(SIZE.0);
-        self.legend(&beside)?;
+        let series = || self.series.iter().filter(|series| series.mark != Mark::Guide);
+        let points = || series().flat_map(|series| series.points.iter());
+        let (area, below) = area.split_vertically(SIZE.1);
+        self.legend(&below)?;
+        let x = Divided::new(&self.x, points().map(|point| point.0));
+        let y = Divided::new(&self.y, points().map(|point| point.1));
+        let place = |&(a, b): &(f64, f64)| x.coordinate(a).zip(y.coordinate(b));
         let mut chart = ChartBuilder::on(&area)
             .caption(&self.title, (FONT, 18))
             .margin(MARGIN)
             .x_label_area_size(46)
             .y_label_area_size(LABELS)
-            .build_cartesian_2d(
-                Divided::new(&self.x, points().map(|point| point.0)),
-                Divided::new(&self.y, points().map(|point| point.1)),
-            )?;
+            .build_cartesian_2d(x.clone(), y.clone())?;
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
@@ -256,28 +298,40 @@ impl Chart {
             .x_desc(&self.x.label)
             .y_desc(&self.y.label)
             .draw()?;
+        let thin = BLACK.mix(0.5).stroke_width(1);
+        // Beyond these lines is nothing but 0.
+        let (across, up) = (x.span(), y.span());
+        let edges = [
+            x.edge_of_zero().map(|edge| [(edge, up.start), (edge, up.end)]),
+            y.edge_of_zero().map(|edge| [(across.start, edge), (across.end, edge)]),
+        ];
+        chart.draw_series(edges.into_iter().flatten().map(|edge| PathElement::new(edge, thin)))?;
         for series in &self.series {
             let color = series.color();
-            let pixels: Vec<(f64, f64)> = series
-                .points
-                .iter()
-                .filter_map(|(x, y)| self.x.coordinate(*x).zip(self.y.coordinate(*y)))
-                .collect();
+            let places: Vec<(f64, f64)> = series.points.iter().filter_map(place).collect();
             let stroke = color.stroke_width(2);
-            let mark = series.mark;
-            let line = pixels.iter().copied();
-            match mark {
-                Mark::Line | Mark::LineAndDiscs => {
+            let line = places.iter().copied();
+            match series.mark {
+                Mark::Line | Mark::LineAndMarkers => {
                     chart.draw_series(LineSeries::new(line, stroke))?
                 }
-                Mark::Dashes | Mark::DashesAndDiscs => {
-                    chart.draw_series(DashedLineSeries::new(line, 6, 5, stroke))?
-                }
+                Mark::Dashes => chart.draw_series(DashedLineSeries::new(line, 6, 5, stroke))?,
                 Mark::Rings => chart.draw_series(line.map(|p| Circle::new(p, 8, stroke)))?,
+                Mark::Guide => {
+                    let soft = BLACK.mix(0.6);
+                    let style = TextStyle::from((FONT, 11).into_font())
+                        .color(&soft)
+                        .pos(Pos::new(HPos::Right, VPos::Bottom));
+                    let name = places.last().map(|&end| Text::new(series.name.clone(), end, style));
+                    chart.draw_series(name)?;
+                    chart.draw_series(DashedLineSeries::new(line, 3, 4, thin))?
+                }
             };
-            if matches!(mark, Mark::LineAndDiscs | Mark::DashesAndDiscs) {
-                let discs = pixels.iter().map(|&pixel| Circle::new(pixel, 3, color.filled()));
-                chart.draw_series(discs)?;
+            let bars = series.bars.iter().filter_map(|[a, b]| place(a).zip(place(b)));
+            let bars = bars.map(|(a, b)| PathElement::new([a, b], color.stroke_width(1)));
+            chart.draw_series(bars)?;
+            if series.mark == Mark::LineAndMarkers {
+                chart.draw_series(places.iter().map(|&place| series.marker(place)))?;
             }
         }
         Ok(())
@@ -297,13 +351,14 @@ mod tests {
             color,
             mark,
             points: law(power).collect(),
+            ..Series::default()
         };
         let chart = Chart {
             title: "errors, ε²".to_owned(),
             x: Axis::new("Δt, s", Scale::Logarithmic),
             y: Axis::new("error, m", Scale::Logarithmic),
             series: vec![
-                series("first order", 1, Some(0), Mark::LineAndDiscs),
+                series("first order", 1, Some(0), Mark::LineAndMarkers),
                 series("second order", 2, Some(1), Mark::Line),
                 series("law", 3, None, Mark::Dashes),
                 series("best", 1, Some(3), Mark::Rings),
@@ -314,7 +369,7 @@ mod tests {
         let folder = Folder::open(temporary.path())?;
         Picture { charts: vec![chart, empty] }.write(&folder, "orders")?;
         let svg = std::fs::read_to_string(folder.path().join("orders.svg"))?;
-        for text in ["errors, ε²", "Δt, s", "second order", "1e-3"] {
+        for text in ["errors, ε²", "Δt, s", "second order", "10⁻³"] {
             assert!(svg.contains(text), "{text} is missing");
         }
         let png = std::fs::read(folder.path().join("orders.png"))?;

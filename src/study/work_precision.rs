@@ -23,12 +23,14 @@ mod sweep;
 
 use serde::Serialize;
 
+use super::others::Others;
 use super::{Journal, Order as Turn, Point, StudyError, Watch};
 use crate::scene::{Precision, SceneFile};
 use crate::vec3::Vec3;
 use conclusions::Motion;
 use measure::measure;
 use reference::{Horizon, Reference, length_scale};
+use report::Measured;
 
 pub use conclusions::{Found, Judged, Order, Theory};
 pub use measure::{Moment, Outcome};
@@ -140,7 +142,7 @@ impl WorkPrecision {
             watch.says("the reference, in double-double");
             reference = Some(Reference::new(file, &self.times())?);
             watch.says("how long each method takes");
-            let runs = (sweep.executions.len() * sweep.runs + 1) as f64;
+            let runs = (sweep.executions.len() * (sweep.runs + 1) + 1) as f64;
             for (seconds, method) in seconds.iter_mut().zip(&sweep.methods) {
                 *seconds = runs * measure::probe(file, method, end)?;
             }
@@ -154,7 +156,10 @@ impl WorkPrecision {
             })
         };
         let points: Vec<_> = sweep.methods.iter().zip(&keys).zip(&seconds).map(point).collect();
+        let others = Others::watch();
         let outcomes = Point::all(&points, journal, Turn::OneByOne, watch)?;
-        Ok(WorkPrecisionReport::new(file, sweep, &self.scale, self.motion, outcomes, quantity))
+        let others = others.processors().filter(|_| is_ahead);
+        let measured = Measured { outcomes, others };
+        Ok(WorkPrecisionReport::new(file, sweep, &self.scale, self.motion, measured, quantity))
     }
 }

@@ -156,7 +156,7 @@ fn past_predictability_there_is_no_figure() {
     let report = study(&scene(FLUID), &quick());
     let lost = report.scale.f32_lost.unwrap();
     assert!(report.time < lost && lost < 20.0);
-    assert!(report.notes.iter().any(|note| note.starts_with("Chaotic")));
+    assert!(report.limits.iter().any(|note| note.starts_with("Chaotic")));
 
     // Asked for more, it says that nothing is left of the trajectories.
     let file = scene(FLUID);
@@ -167,7 +167,7 @@ fn past_predictability_there_is_no_figure() {
         ..quick()
     };
     let report = study(&file, &asked);
-    assert!(report.notes.iter().any(|note| note.contains("every method has lost")));
+    assert!(report.limits.iter().any(|note| note.contains("every method has lost")));
     assert_eq!(report.time, 0.2);
     // Of the energy there is.
     let journal = Journal::unwritten();

@@ -54,7 +54,8 @@ pub struct ErrorArguments {
     #[arg(long, value_name = "N,…", value_delimiter = ',', value_parser = threads())]
     threads: Vec<u64>,
 
-    /// Timed runs of each method [default: 5]
+    /// Samples of the time of each method, at least; each is as many runs as take 5 ms
+    /// [default: 5]
     #[arg(long, value_name = "N")]
     runs: Option<usize>,
 

@@ -39,6 +39,7 @@ impl PrecisionReport {
                 color: Some(k),
                 mark: Mark::Line,
                 points: points.collect(),
+                ..Series::default()
             });
             if let Some(growth) = divergence.growth.filter(|growth| growth.power.is_none()) {
                 let law = |c: f64| (c, (growth.intercept + growth.rate.value * c).exp());
@@ -47,6 +48,7 @@ impl PrecisionReport {
                     color: Some(k),
                     mark: Mark::Dashes,
                     points: growth.range.map(law).to_vec(),
+                    ..Series::default()
                 });
             }
         }
@@ -56,6 +58,7 @@ impl PrecisionReport {
             color: None,
             mark: Mark::Dashes,
             points: ends.map(|x| (x, self.threshold.distance)).to_vec(),
+            ..Series::default()
         });
         let x = if has_collisions { "collisions per body" } else { "time" };
         Chart {
@@ -73,8 +76,9 @@ impl PrecisionReport {
             let series = drifts.enumerate().map(|(color, drift)| Series {
                 name: format!("{}, {}", drift.invariant, drift.law),
                 color: Some(color),
-                mark: Mark::LineAndDiscs,
+                mark: Mark::LineAndMarkers,
                 points: drift.points.iter().copied().filter(|point| point.1.is_finite()).collect(),
+                ..Series::default()
             });
             Chart {
                 title: format!("{}: drift in {precision}", self.subject.name),

@@ -68,8 +68,8 @@ impl ScalingReport {
 
     fn time_axis(&self, scale: Scale) -> Axis {
         match self.engine {
-            EngineKind::Stepped => Axis::new("time per body and step, ns", scale),
-            EngineKind::EventDriven => Axis::new("time per collision, ns", scale),
+            EngineKind::Stepped => Axis::new("time / ns per body and step", scale),
+            EngineKind::EventDriven => Axis::new("time / ns per collision", scale),
         }
     }
 
@@ -114,9 +114,10 @@ impl ScalingReport {
                 color: Some(color),
                 mark,
                 points,
+                ..Series::default()
             };
             let held = rows.iter().map(|row| per_body(row, row.bytes)).collect();
-            series.push(of("held by the engine", Mark::LineAndDiscs, held));
+            series.push(of("held by the engine", Mark::LineAndMarkers, held));
             series.push(of("peak of the process", Mark::Dashes, peaks.collect()));
         }
         series.retain(|series| !series.points.is_empty());
@@ -132,7 +133,7 @@ impl ScalingReport {
     /// widths that the engine chooses itself.
     fn lanes_chart(&self) -> Chart {
         let threads = self.settings.threads[0];
-        let mut series = Vec::new();
+        let (mut series, mut ticks) = (Vec::new(), Vec::new());
         for (color, &precision) in self.settings.precisions.iter().enumerate() {
             let name = precision.name();
             let Some(rows) = self.points.iter().find(|rows| {
@@ -153,12 +154,14 @@ impl ScalingReport {
                 }
             }
             widths.sort_by(|a, b| a.0.total_cmp(&b.0));
+            ticks = widths.iter().map(|(width, _)| *width).collect();
             if let (Some(auto), Some(first), Some(last)) = (auto, widths.first(), widths.last()) {
                 series.push(Series {
                     name: format!("{name}, auto"),
                     color: Some(color),
                     mark: Mark::Dashes,
                     points: vec![(first.0, auto), (last.0, auto)],
+                    ..Series::default()
                 });
             }
             series.push(Series {
@@ -170,7 +173,7 @@ impl ScalingReport {
         }
         Chart {
             title: format!("{}: lanes", self.subject.name),
-            x: Axis::new("lanes", Scale::Logarithmic),
+            x: Axis::new("lanes", Scale::Logarithmic).with_ticks(ticks),
             y: self.time_axis(Scale::Linear),
             series,
         }

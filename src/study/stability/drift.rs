@@ -181,6 +181,7 @@ fn picture(curves: &[Curve]) -> Picture {
             color: None,
             mark: if power < 1.0 { Mark::Dashes } else { Mark::Line },
             points: vec![at(first), at(end)],
+            ..Series::default()
         }
     };
     let chart = |diameter: &str| {
@@ -199,6 +200,7 @@ fn picture(curves: &[Curve]) -> Picture {
                 color: Some(color),
                 mark: Mark::Line,
                 points: curve.points.clone(),
+                ..Series::default()
             });
         }
         Chart {

@@ -198,8 +198,9 @@ fn picture(curves: &[Curve]) -> Picture {
         let series = shown.enumerate().map(|(k, curve)| Series {
             name: format!("{}, {}", curve.name, curve.precision),
             color: Some(k),
-            mark: Mark::LineAndDiscs,
+            mark: Mark::LineAndMarkers,
             points: curve.points.clone(),
+            ..Series::default()
         });
         Chart {
             title: title.to_owned(),

@@ -277,6 +277,7 @@ fn picture(curves: &[Curve]) -> Picture {
                 color,
                 mark: if curve.precision == Precision::F32 { Mark::Line } else { Mark::Dashes },
                 points: curve.points.clone(),
+                ..Series::default()
             }
         });
         Chart {

@@ -15,6 +15,8 @@ pub struct Judged {
     pub method: Method,
     /// Median wall time, seconds.
     pub seconds: f64,
+    /// The 95 % interval of that, as [`Timing::interval`](crate::study::clock::Timing::interval).
+    pub interval: [f64; 2],
     /// How far it is off.
     pub error: f64,
 }
@@ -203,7 +205,8 @@ mod tests {
             impact: Impact::EndOfStep,
             dt,
         });
-        Judged { method: Method { precision: Precision::F64, stepping }, seconds, error }
+        let method = Method { precision: Precision::F64, stepping };
+        Judged { method, seconds, interval: [seconds; 2], error }
     }
 
     #[test]

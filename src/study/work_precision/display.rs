@@ -43,13 +43,16 @@ impl WorkPrecisionReport {
                     None => family.to_string(),
                     Some(stepping) => format!("  Δt {:.3e}", stepping.dt),
                 };
-                let spread = (timing.upper_quartile - timing.lower_quartile) / 2.0 / timing.median;
+                let uncertain = match timing.is_uncertain() {
+                    true => format!("{:.0} % !", timing.uncertainty() * 100.0),
+                    false => format!("{:.0} %", timing.uncertainty() * 100.0),
+                };
                 let errors = shown.iter().map(|&quantity| match self.error(moment, quantity) {
                     Some(error) => size_of(error),
                     None if moment.deviation.is_none() => "not finite".to_owned(),
                     None => "lost".to_owned(),
                 });
-                let times = [seconds(timing.median), format!("{:.0} %", spread * 100.0)];
+                let times = [seconds(timing.median), uncertain];
                 table.row(&label, times.into_iter().chain(errors));
             }
         }
@@ -159,7 +162,23 @@ impl fmt::Display for WorkPrecisionReport {
         writeln!(f, "{}", self.machine)?;
         if let Some(Execution { lanes, threads, .. }) = self.sweep.executions.first() {
             let threads = counted(*threads as u64, "thread");
-            writeln!(f, "Times: median of {} runs, lanes {lanes}, {threads}.", self.sweep.runs)?;
+            let samples = counted(self.sweep.runs as u64, "sample");
+            writeln!(
+                f,
+                "Times: medians of {samples} or more, lanes {lanes}, {threads}; ± is half"
+            )?;
+            writeln!(f, "their 95 % interval.")?;
+        }
+        if !self.limits.is_empty() {
+            writeln!(f)?;
+        }
+        for limit in &self.limits {
+            writeln!(f, "{limit}")?;
+        }
+        if !self.advice.is_empty() {
+            let Self { quantity, .. } = self;
+            writeln!(f, "\nFor an error of {quantity} ({}) of, use", quantity.unit())?;
+            write!(f, "{}", self.advice_lines())?;
         }
         writeln!(f, "\n{}", self.errors())?;
         writeln!(
@@ -169,11 +188,6 @@ impl fmt::Display for WorkPrecisionReport {
         )?;
         if self.sweep.executions.len() > 1 {
             writeln!(f, "Time on other executions\n{}", self.executions())?;
-        }
-        if !self.advice.is_empty() {
-            let Self { quantity, .. } = self;
-            writeln!(f, "For an error of {quantity} ({}) of, use", quantity.unit())?;
-            writeln!(f, "{}", self.advice_lines())?;
         }
         for note in &self.notes {
             writeln!(f, "{note}")?;

@@ -2,14 +2,14 @@
 
 use serde::Serialize;
 
-use super::conclusions::Judged;
+use super::conclusions::{Judged, size};
 use super::method::Family;
 use super::quantity::Quantity;
 use super::report::WorkPrecisionReport;
 use crate::motion::Integrator;
 use crate::scene::Precision;
 use crate::scene::{EngineKind, Impact};
-use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
+use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series, Shape};
 use crate::study::{Folder, StudyError};
 
 /// A row of the table of comma-separated values.
@@ -25,6 +25,9 @@ struct MethodRecord {
     seconds: f64,
     seconds_lower_quartile: f64,
     seconds_upper_quartile: f64,
+    seconds_low: f64,
+    seconds_high: f64,
+    samples: usize,
     time: f64,
     collisions_per_body: f64,
     reference_collisions_per_body: f64,
@@ -57,6 +60,7 @@ impl WorkPrecisionReport {
         let rows = methods.flat_map(|(method, outcome)| {
             let runs = self.sweep.executions.iter().zip(&outcome.timings);
             runs.flat_map(move |(execution, timing)| {
+                let [seconds_low, seconds_high] = timing.interval();
                 outcome.moments.iter().map(move |moment| {
                     let figure = |quantity: Quantity| moment.deviation.map(|d| quantity.of(&d));
                     let stepping = method.stepping;
@@ -74,6 +78,9 @@ impl WorkPrecisionReport {
                         seconds: timing.median,
                         seconds_lower_quartile: timing.lower_quartile,
                         seconds_upper_quartile: timing.upper_quartile,
+                        seconds_low,
+                        seconds_high,
+                        samples: timing.runs.len(),
                         time: moment.time,
                         collisions_per_body: moment.collisions,
                         reference_collisions_per_body: moment.true_collisions,
@@ -96,44 +103,77 @@ impl WorkPrecisionReport {
     /// The work–precision diagram.
     fn picture(&self) -> Picture {
         let results = self.results(self.judged, self.quantity);
-        let point = |result: &Judged| (result.seconds, result.error);
+        let size = size(self.quantity, self.scale.length, self.scale.speed);
+        let point = |result: &Judged| (result.seconds, result.error / size);
         let families = self.families();
-        // A colour for each engine, whatever the precision.
+        // A colour for each way to move, a shape for each precision.
         let mut steppings: Vec<_> = families.iter().map(|family| family.stepping).collect();
         steppings.dedup();
         let color = |family: &Family| steppings.iter().position(|s| *s == family.stepping);
-        let mut series: Vec<Series> = families
-            .iter()
-            .map(|family| Series {
+        let mut series = self.guides(&results.iter().map(point).collect::<Vec<_>>());
+        series.extend(families.iter().map(|family| {
+            let own = results.iter().filter(|result| result.method.family() == *family);
+            let bar =
+                |result: &Judged| result.interval.map(|seconds| (seconds, result.error / size));
+            Series {
                 name: family.to_string(),
                 color: color(family),
-                mark: match family.precision {
-                    Precision::F32 => Mark::DashesAndDiscs,
-                    Precision::F64 => Mark::LineAndDiscs,
+                mark: Mark::LineAndMarkers,
+                shape: match family.precision {
+                    Precision::F32 => Shape::Square,
+                    Precision::F64 => Shape::Disc,
                 },
-                points: results
-                    .iter()
-                    .filter(|result| result.method.family() == *family)
-                    .map(point)
-                    .collect(),
-            })
-            .collect();
+                points: own.clone().map(point).collect(),
+                bars: own.map(bar).collect(),
+            }
+        }));
         series.push(Series {
             name: "no other is faster and better".to_owned(),
-            color: None,
             mark: Mark::Rings,
             points: self.front.iter().map(point).collect(),
+            ..Series::default()
         });
         Picture {
             charts: vec![Chart {
                 title: format!("{}, up to time {:.4}", self.subject.name, self.time),
-                x: Axis::new("wall time, s", Scale::Logarithmic),
-                y: Axis::new(
-                    &format!("error of {}, {}", self.quantity, self.quantity.unit()),
-                    Scale::Logarithmic,
-                ),
+                x: Axis::new("wall time / s", Scale::Logarithmic),
+                y: Axis::new(self.quantity.axis(), Scale::Logarithmic),
                 series,
             }],
         }
+    }
+
+    /// What errors are seen against: the rounding of the precisions, and lines along which
+    /// the error is in proportion to the step or its square, if the time is to their number.
+    fn guides(&self, points: &[(f64, f64)]) -> Vec<Series> {
+        let mut guides = Vec::new();
+        let mut guide = |name: &str, ends: [(f64, f64); 2]| {
+            guides.push(Series {
+                name: name.to_owned(),
+                mark: Mark::Guide,
+                points: ends.to_vec(),
+                ..Series::default()
+            });
+        };
+        let positive = points.iter().filter(|(_, error)| *error > 0.0);
+        let Some(start) = positive.clone().copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        else {
+            return guides;
+        };
+        let end = positive.copied().fold(start, |a, b| (a.0.max(b.0), a.1.min(b.1)));
+        for (name, epsilon) in [("ε of f32", f64::from(f32::EPSILON)), ("ε of f64", f64::EPSILON)]
+        {
+            if end.1 <= epsilon && epsilon <= start.1 {
+                guide(name, [(start.0, epsilon), (end.0, epsilon)]);
+            }
+        }
+        if self.families().iter().any(|family| family.stepping.is_some()) {
+            for (name, order) in [("order 1", 1.0), ("order 2", 2.0)] {
+                // From the upper left corner down to where the points end.
+                let ratio = (end.0 / start.0).min((start.1 / end.1).powf(1.0 / order));
+                guide(name, [start, (start.0 * ratio, start.1 / ratio.powf(order))]);
+            }
+        }
+        guides
     }
 }

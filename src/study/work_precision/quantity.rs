@@ -49,6 +49,18 @@ impl Quantity {
         }
     }
 
+    /// What an axis of errors relative to the greatest radius or the speed is called.
+    pub(super) fn axis(self) -> &'static str {
+        match self {
+            Self::Position => "RMS position error / greatest radius",
+            Self::Velocity => "RMS velocity error / RMS speed",
+            Self::Orientation => "RMS orientation error / rad",
+            Self::Energy => "relative energy error",
+            Self::Momentum => "momentum error / sum of momenta",
+            Self::AngularMomentum => "angular momentum error / sum of angular momenta",
+        }
+    }
+
     /// Its unit.
     #[must_use]
     pub fn unit(self) -> &'static str {

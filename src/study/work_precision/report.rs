@@ -31,17 +31,32 @@ pub struct WorkPrecisionReport {
     pub sweep: Sweep,
     /// What was measured of each of the sweep's methods.
     pub outcomes: Vec<Outcome>,
+    /// The processors that other programs kept busy while this was measured, on the average;
+    /// `None` where nothing was measured now, or the system does not say.
+    pub others: Option<f64>,
     /// The orders of convergence, for each quantity.
     pub orders: Vec<(Quantity, Vec<Order>)>,
     /// The methods that no other one beats in both time and error.
     pub front: Vec<Judged>,
     /// For an error of so much: the fastest method.
     pub advice: Vec<(f64, Judged)>,
-    /// What there is to know about it.
+    /// What was cut short, and what is not to be trusted.
+    pub limits: Vec<String>,
+    /// What else there is to know about it.
     pub notes: Vec<String>,
     #[serde(skip)]
     pub(super) judged: usize,
 }
+
+/// All that was measured.
+pub(super) struct Measured {
+    pub outcomes: Vec<Outcome>,
+    /// As [`WorkPrecisionReport::others`].
+    pub others: Option<f64>,
+}
+
+/// Of a processor, so much is always busy with something.
+const BUSY: f64 = 0.2;
 
 impl WorkPrecisionReport {
     pub(super) fn new(
@@ -49,7 +64,7 @@ impl WorkPrecisionReport {
         sweep: &Sweep,
         scale: &Scale,
         motion: Motion,
-        outcomes: Vec<Outcome>,
+        Measured { outcomes, others }: Measured,
         quantity: Quantity,
     ) -> Self {
         let mut report = Self {
@@ -60,10 +75,12 @@ impl WorkPrecisionReport {
             scale: scale.clone(),
             sweep: sweep.clone(),
             outcomes,
+            others,
             orders: Vec::new(),
             front: Vec::new(),
             advice: Vec::new(),
-            notes: sweep.notes.clone(),
+            limits: sweep.notes.clone(),
+            notes: Vec::new(),
             judged: sweep.times.len().saturating_sub(1),
         };
         // The last time at which anything can be said.
@@ -87,40 +104,62 @@ impl WorkPrecisionReport {
     }
 
     fn take_notes(&mut self, motion: Motion) {
-        let mut notes = Vec::new();
-        if !motion.has_collisions {
-            notes.push("Nothing collides: the error is only the integrator's.".to_owned());
-        }
+        let mut limits = Vec::new();
         let last = self.sweep.times.last().copied().unwrap_or(0.0);
         if let Some(lost) = self.scale.f32_lost {
-            notes.push(format!(
+            limits.push(format!(
                 "Chaotic: event-driven f32 has lost the trajectories at time {lost:.3e}. Lost is \
                  what is off by a tenth of a radius; a number there would be noise."
             ));
             if self.subject.duration.is_some_and(|duration| last < duration) && last < lost {
-                notes.push(format!(
+                limits.push(format!(
                     "So methods are compared up to time {last:.3e}; --duration or --times take it \
                      further.",
                 ));
             }
         }
         if self.judged + 1 < self.sweep.times.len() {
-            notes.push(format!(
+            limits.push(format!(
                 "At time {last:.3e} every method has lost the trajectories: that is past what can \
                  be predicted. Judged is time {:.3e}.",
                 self.time
             ));
         }
-        notes.extend(self.explanations());
         if self.results(self.judged, self.quantity).is_empty() {
-            notes.push(
+            limits.push(
                 "Every trajectory is lost at every one of the times: only energy and averages \
                  are figures there. Give a shorter --duration."
                     .to_owned(),
             );
         }
-        notes.push("All lanes and threads gave the same bits.".to_owned());
-        self.notes.append(&mut notes);
+        limits.extend(self.disturbances());
+        self.limits.append(&mut limits);
+        if !motion.has_collisions {
+            self.notes.push("Nothing collides: the error is only the integrator's.".to_owned());
+        }
+        self.notes.append(&mut self.explanations());
+        self.notes.push("All lanes and threads gave the same bits.".to_owned());
+    }
+
+    /// What times are not to be trusted, and why.
+    fn disturbances(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if let Some(others) = self.others.filter(|others| *others > BUSY) {
+            notes.push(format!(
+                "The machine was busy: other programs used {others:.1} processors while times \
+                 were measured."
+            ));
+        }
+        let timings = || self.outcomes.iter().flat_map(|outcome| &outcome.timings);
+        let uncertain = timings().filter(|timing| timing.is_uncertain()).count();
+        if uncertain > 0 {
+            notes.push(format!(
+                "{uncertain} of {} times are uncertain by more than 10 % (!): measure them again, \
+                 with --restart, on a quiet machine or with more --runs.",
+                timings().count()
+            ));
+        }
+        notes
     }
 
     /// Why orders of the position are not those of theory, where they are not.
@@ -178,7 +217,9 @@ impl WorkPrecisionReport {
         methods
             .filter_map(|(method, outcome)| {
                 let error = self.error(outcome.moments.get(time)?, quantity)?;
-                Some(Judged { method: *method, seconds: outcome.timings.first()?.median, error })
+                let timing = outcome.timings.first()?;
+                let (seconds, interval) = (timing.median, timing.interval());
+                Some(Judged { method: *method, seconds, interval, error })
             })
             .collect()
     }
