@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
-use super::{Number, Pair, Vector};
-use crate::surroundings::{Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
+use super::{Number, Numbers, Pair, Vector, Whole};
+use crate::surroundings::{FilePath, Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
 
 /// An entry.
 #[derive(Clone, Debug, Default)]
@@ -186,6 +186,16 @@ fn value<'de, A: MapAccess<'de>>(key: Key, map: &mut A) -> Result<Value, A::Erro
             Value::Number(number)
         }
         Meaning::Flag => Value::Flag(map.next_value()?),
+        Meaning::Triples => Value::Triples(map.next_value()?),
+        Meaning::Numbers => {
+            let Numbers(numbers) = map.next_value()?;
+            Value::Numbers(numbers)
+        }
+        Meaning::Count => {
+            let Whole(count) = map.next_value()?;
+            Value::Count(count)
+        }
+        Meaning::Path => Value::Path(FilePath::new(map.next_value()?)),
     })
 }
 
