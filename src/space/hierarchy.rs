@@ -240,7 +240,8 @@ mod tests {
     #[test]
     fn boxes_are_rounded_outward() {
         let third = 1.0 / 3.0;
-        let [lower, upper] = outward([Vec3::new(third, -third, 0.5), Vec3::new(third, -third, 0.5)]);
+        let [lower, upper] =
+            outward([Vec3::new(third, -third, 0.5), Vec3::new(third, -third, 0.5)]);
         assert!(f64::from(lower[0]) < third && f64::from(upper[0]) > third);
         assert!(f64::from(lower[1]) < -third && f64::from(upper[1]) > -third);
         assert_eq!((lower[2], upper[2]), (0.5, 0.5));

@@ -23,7 +23,7 @@ pub(crate) enum Meaning {
     Flag,
     /// A list of three whole numbers each.
     Triples,
-    /// A list of numbers, or one.
+    /// A list of lengths, or one.
     Numbers,
     /// A whole number.
     Count,
@@ -256,6 +256,9 @@ impl ShapeEntry {
             match value {
                 Value::Vector(point) if key.meaning == Meaning::Point => {
                     *point = point.map(|component| component * factor);
+                }
+                Value::Numbers(lengths) => {
+                    lengths.iter_mut().for_each(|length| *length *= factor);
                 }
                 Value::Points(points) => {
                     points.iter_mut().flatten().for_each(|component| *component *= factor);

@@ -63,11 +63,7 @@ impl<T: Real> Facet<T> {
     }
 
     /// With sides of their own, in a plane of its own.
-    pub(super) fn with(
-        corners: [Vec3<T>; 3],
-        sides: [Side<T>; 3],
-        face: Option<Plane<T>>,
-    ) -> Self {
+    pub(super) fn with(corners: [Vec3<T>; 3], sides: [Side<T>; 3], face: Option<Plane<T>>) -> Self {
         Self { size: farthest(corners), corners, sides, face }
     }
 

@@ -120,6 +120,14 @@ impl<T: Real> Features<T> {
         first + mesh.plane_of(number - first)
     }
 
+    /// The bytes that they hold.
+    pub(crate) fn bytes(&self) -> usize {
+        let meshes = self.meshes.iter().map(|numbered| numbered.mesh.bytes());
+        size_of_val(self.alone.as_slice())
+            + size_of_val(self.shapes.as_slice())
+            + meshes.sum::<usize>()
+    }
+
     /// Whether any triangle of a mesh whose box touches a box is what `is_wanted` says.
     pub(crate) fn any_tile(&self, bounds: Bounds<T>, is_wanted: impl Fn(u32) -> bool) -> bool {
         let mut any = false;

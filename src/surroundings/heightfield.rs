@@ -1,11 +1,11 @@
 //! Heightfield: a surface over a grid, by its heights.
 
+use super::Feature;
 use super::entry::{FILE, Key, Meaning, ShapeEntry};
 use super::mesh::{Mesh, MeshError};
 use super::mistake::Mistake;
 use super::placement::Placement;
 use super::solid::Solid;
-use super::Feature;
 use crate::real::Real;
 use crate::space::Bounds;
 use crate::vec3::Vec3;
@@ -165,7 +165,10 @@ impl<T: Real> Solid<T> for Heightfield<T> {
             .ok_or_else(|| Mistake::missing(HEIGHTS.name, "a list of numbers, row by row"))?;
         if columns.saturating_mul(rows) != heights.len() {
             let found = format!("a list of {}", heights.len());
-            let wanted = format!("{columns} columns and {rows} rows are {} heights", columns.saturating_mul(rows));
+            let wanted = format!(
+                "{columns} columns and {rows} rows are {} heights",
+                columns.saturating_mul(rows)
+            );
             return Err(Mistake::described(HEIGHTS.name, found, wanted));
         }
         Heightfield::new(origin, spacing, columns, heights).map_err(|error| {

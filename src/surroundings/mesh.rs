@@ -28,6 +28,7 @@ pub use error::{FilePlace, MeshError};
 use net::Net;
 pub use report::MeshReport;
 use seams::Seams;
+use stl::Stl;
 pub(crate) use tile::Tile;
 
 /// A surface of triangles fixed in space, thin and touched from both sides: what is the
@@ -115,11 +116,19 @@ impl<T: Real> Mesh<T> {
     /// If it is anything else, ends too early or has more than it says, or a coordinate is
     /// not finite: the message names the byte or the line.
     pub fn from_stl(bytes: &[u8]) -> Result<Self, MeshError> {
-        let (vertices, is_binary) = stl::read(bytes)?;
-        let count = vertices.len() as u32;
+        let Stl { corners, is_binary, ends_early } = stl::read(bytes)?;
+        let count = corners.len() as u32;
         let triangles: Vec<[u32; 3]> = (0..count).step_by(3).map(|k| [k, k + 1, k + 2]).collect();
         let source = if is_binary { Source::BinaryStl } else { Source::Text };
-        Self::of(&cast(&vertices), &triangles, source)
+        let mesh = Self::of(&cast(&corners), &triangles, source)?;
+        match ends_early {
+            Some(line) if !mesh.report().is_closed() => {
+                let problem = "the file ends here without \"endsolid\", and what it has is not \
+                               closed: it may be cut off";
+                Err(MeshError::at_line(line, problem))
+            }
+            _ => Ok(mesh),
+        }
     }
 
     /// What a file in the OBJ format has: its vertices and faces. Faces of more than three

@@ -1,24 +1,24 @@
 //! Meshes: seams that nothing feels, first contacts, conservation, the same bits on every
 //! path, files.
 
+#[path = "../common/mod.rs"]
+mod common;
 mod files;
 mod motion;
 mod seams;
 mod shots;
-#[path = "../common/mod.rs"]
-mod common;
 
 use carom::real::Real;
 use carom::surroundings::Mesh;
 
 /// Vertices and triangles.
-pub struct Net {
-    pub vertices: Vec<[f64; 3]>,
-    pub triangles: Vec<[u32; 3]>,
+pub(crate) struct Net {
+    pub(crate) vertices: Vec<[f64; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl Net {
-    pub fn mesh<T: Real>(&self) -> Mesh<T> {
+    pub(crate) fn mesh<T: Real>(&self) -> Mesh<T> {
         let vertices: Vec<[T; 3]> = self.vertices.iter().map(|v| v.map(T::from_f64)).collect();
         Mesh::new(&vertices, &self.triangles).unwrap()
     }
@@ -26,7 +26,7 @@ impl Net {
 
 /// A grid of cells about the origin, each of two triangles, with a vertex where `place` puts
 /// it, whose corners go round to different sides.
-pub fn grid(cells: usize, place: impl Fn(usize, usize) -> [f64; 3]) -> Net {
+pub(crate) fn grid(cells: usize, place: impl Fn(usize, usize) -> [f64; 3]) -> Net {
     let row = cells + 1;
     let vertices = (0..row * row).map(|k| place(k % row, k / row)).collect();
     let mut triangles = Vec::new();
@@ -40,7 +40,7 @@ pub fn grid(cells: usize, place: impl Fn(usize, usize) -> [f64; 3]) -> Net {
 }
 
 /// A sphere of triangles about the origin: an icosahedron whose sides are halved so often.
-pub fn icosphere(radius: f64, level: usize) -> Net {
+pub(crate) fn icosphere(radius: f64, level: usize) -> Net {
     let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
     let onto = |[x, y, z]: [f64; 3]| {
         let scale = radius / (x * x + y * y + z * z).sqrt();
@@ -48,7 +48,8 @@ pub fn icosphere(radius: f64, level: usize) -> Net {
     };
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     for k in 0..12 {
-        let (a, b) = (if k & 1 == 0 { 1.0 } else { -1.0 }, if k & 2 == 0 { golden } else { -golden });
+        let (a, b) =
+            (if k & 1 == 0 { 1.0 } else { -1.0 }, if k & 2 == 0 { golden } else { -golden });
         let mut place = [0.0, a, b];
         place.rotate_right(k / 4);
         vertices.push(onto(place));

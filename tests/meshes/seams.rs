@@ -91,9 +91,14 @@ fn moves_as_on_a_plane<T: Compiled>() {
     ] {
         for surface in [Surface::Smooth, Surface::Rough] {
             // One that starts at rest on the floor falls onto it without end.
-            let some = |k: usize| engine == EngineKind::Stepped || k / 3 % 4 != 0 || k / 12 % 4 != 2;
-            let balls: Vec<_> =
-                balls.iter().enumerate().filter(|(k, _)| some(*k)).map(|(_, b)| b.clone()).collect();
+            let some =
+                |k: usize| engine == EngineKind::Stepped || k / 3 % 4 != 0 || k / 12 % 4 != 2;
+            let balls: Vec<_> = balls
+                .iter()
+                .enumerate()
+                .filter(|(k, _)| some(*k))
+                .map(|(_, b)| b.clone())
+                .collect();
             let (on_mesh, hits) = run::<T>(mesh.clone().into(), &balls, surface, engine, impact);
             let (on_plane, wanted) = run::<T>(plane(), &balls, surface, engine, impact);
             let what = format!("{} {engine:?} {impact:?} {surface:?}", T::NAME);

@@ -175,10 +175,6 @@ fn has_just_left<T: Real>(
 }
 
 /// Whether a sphere approaches a feature.
-fn is_closing<T: Real>(
-    feature: &FeatureRef<'_, T>,
-    flight: &Flight<T>,
-    center: Vec3<T>,
-) -> bool {
+fn is_closing<T: Real>(feature: &FeatureRef<'_, T>, flight: &Flight<T>, center: Vec3<T>) -> bool {
     feature.clearance_of_surface(center, flight.radius).arm.dot(flight.velocity) < T::ZERO
 }

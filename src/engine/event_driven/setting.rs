@@ -72,9 +72,11 @@ impl<T: Real> Setting<T> {
             None => near::span(
                 least,
                 interiors.clone(),
-                features.alone().iter().filter_map(Feature::bounds).chain(
-                    features.mesh_bounds().filter(|_| meshes),
-                ),
+                features
+                    .alone()
+                    .iter()
+                    .filter_map(Feature::bounds)
+                    .chain(features.mesh_bounds().filter(|_| meshes)),
                 (0..len).map(|index| bodies.position_of(index)),
             ),
         };
@@ -126,7 +128,7 @@ impl<T: Real> Setting<T> {
     /// The counter of a feature's part, if it has one.
     #[inline(always)]
     pub fn counter(&self, feature: u32) -> Option<usize> {
-        self.counted.counter(self.parts[feature as usize])
+        self.counted.counter(self.features.shape_of(feature))
     }
 
     /// Centre and velocity on a flight at a time.
@@ -154,5 +156,6 @@ impl<T: Real> Setting<T> {
             + self.inverse_mass.bytes()
             + self.inverse_inertia.bytes()
             + self.near.bytes()
+            + self.features.bytes()
     }
 }

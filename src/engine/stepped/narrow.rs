@@ -193,12 +193,7 @@ impl<T: Real> WithinStep<'_, T> {
 
     /// How long before the end of the step the body in a slot touches a feature.
     #[inline(never)]
-    fn contact_with(
-        &self,
-        state: &State<T>,
-        part: &Part<'_, T>,
-        slot: u32,
-    ) -> Option<T> {
+    fn contact_with(&self, state: &State<T>, part: &Part<'_, T>, slot: u32) -> Option<T> {
         let Self { path, stretch: Stretch { until, .. }, .. } = *self;
         let radius = state.radius.of(slot as usize);
         let end = at(&state.position, slot as usize);
@@ -222,10 +217,9 @@ impl<T: Real> WithinStep<'_, T> {
             let start = path.center(end, velocity, since);
             // It has left one image only.
             let rounding = T::whole(64) * T::EPSILON * end.length();
-            let is_leaving =
-                is_last
-                    && feature.clearance_of_surface(start, radius).gap.abs()
-                        <= rounding.greater(radius / T::whole(1024));
+            let is_leaving = is_last
+                && feature.clearance_of_surface(start, radius).gap.abs()
+                    <= rounding.greater(radius / T::whole(1024));
             path.contact(feature, (end, velocity), radius, since, is_leaving)
         };
         space.images().into_iter().filter_map(through).reduce(Lane::greater)

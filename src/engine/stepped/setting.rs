@@ -65,7 +65,7 @@ impl<T: Real> Setting<T> {
     /// The counter of a feature's part, if it has one.
     #[inline(always)]
     pub fn counter(&self, feature: u32) -> Option<usize> {
-        self.counted.counter(self.parts[feature as usize])
+        self.counted.counter(self.features.shape_of(feature))
     }
 
     /// Whether there is anything to collide with.

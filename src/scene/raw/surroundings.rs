@@ -24,7 +24,12 @@ pub(in crate::scene) struct RawSurroundings {
 impl RawSurroundings {
     /// Moves every point away from the origin by a factor.
     pub(in crate::scene) fn dilate(&mut self, factor: f64) {
-        self.values.dilate(factor);
+        if self.values.files().next().is_some() {
+            let Number(scale) = self.scale.unwrap_or(Number(1.0));
+            self.scale = Some(Number(scale * factor));
+        } else {
+            self.values.dilate(factor);
+        }
         let center = self.rotation.as_mut().and_then(|rotation| rotation.center.as_mut());
         for Vector(point) in self.translation.as_mut().into_iter().chain(center) {
             *point = point.map(|component| component * factor);

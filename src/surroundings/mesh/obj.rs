@@ -12,8 +12,22 @@ use super::words::{number, unexpected};
 
 /// Words that begin lines without geometry of the surface.
 const PASSED_OVER: [&str; 16] = [
-    "vt", "vn", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "lod", "bevel",
-    "c_interp", "d_interp", "shadow_obj", "trace_obj",
+    "vt",
+    "vn",
+    "g",
+    "o",
+    "s",
+    "mg",
+    "usemtl",
+    "mtllib",
+    "usemap",
+    "maplib",
+    "lod",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "shadow_obj",
+    "trace_obj",
 ];
 
 /// Vertices, and triangles by their numbers from 0.
@@ -43,7 +57,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Vec<[f64; 3]>, Vec<[u32; 3]>), MeshE
                 return Err(MeshError::at_line(line, problem));
             }
             word if PASSED_OVER.iter().any(|passed| passed.as_bytes() == word) => {}
-            word => return Err(unexpected(line, word, "\"v\", \"f\" or another word of OBJ files")),
+            word => {
+                return Err(unexpected(line, word, "\"v\", \"f\" or another word of OBJ files"));
+            }
         }
     }
     if triangles.is_empty() {

@@ -8,11 +8,7 @@ use crate::vec3::Vec3;
 
 /// Adds the triangles of a polygon, by its corners among the vertices. One that is not flat
 /// is seen along its mean normal; one that crosses itself is cut as it comes.
-pub(super) fn triangulated(
-    corners: &[u32],
-    vertices: &[[f64; 3]],
-    triangles: &mut Vec<[u32; 3]>,
-) {
+pub(super) fn triangulated(corners: &[u32], vertices: &[[f64; 3]], triangles: &mut Vec<[u32; 3]>) {
     let place = |corner: u32| Vec3::from(vertices[corner as usize]);
     let mut left = corners.to_vec();
     let normal = mean_normal(&left.iter().map(|&corner| place(corner)).collect::<Vec<_>>());

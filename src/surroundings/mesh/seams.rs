@@ -52,7 +52,8 @@ impl Seams {
                         let plane = planes[other as usize];
                         (plane == u32::MAX, plane == first)
                     };
-                    if !(is_free || is_ours) || is_folded([corners(one), corners(other)], [side, back])
+                    if !(is_free || is_ours)
+                        || is_folded([corners(one), corners(other)], [side, back])
                     {
                         continue;
                     }

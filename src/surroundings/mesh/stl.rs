@@ -10,6 +10,9 @@
 //!         endsolid NAME
 //! ```
 //!
+//! Many programs leave `endsolid` out, and a text that is cut off between two triangles has
+//! none either: without it, only a closed surface is taken for whole.
+//!
 //! A file whose length is what its number of triangles says is binary, whatever it begins
 //! with.
 
@@ -26,14 +29,24 @@ pub(super) fn byte_of(triangle: usize) -> usize {
     HEADER + triangle * TRIANGLE
 }
 
-/// The corners of all triangles, one after another, and whether the file is binary.
-pub(super) fn read(bytes: &[u8]) -> Result<(Vec<[f64; 3]>, bool), MeshError> {
+/// What a file has.
+pub(super) struct Stl {
+    /// The corners of all triangles, one after another.
+    pub(super) corners: Vec<[f64; 3]>,
+    pub(super) is_binary: bool,
+    /// The last line of a text that ends before its `endsolid`.
+    pub(super) ends_early: Option<usize>,
+}
+
+/// Reads a file.
+pub(super) fn read(bytes: &[u8]) -> Result<Stl, MeshError> {
     let count = triangles_said(bytes);
     let is_whole = count.is_some_and(|count| wanted_length(count) == bytes.len() as u64);
     if is_whole || !starts_as_text(bytes) {
-        binary(bytes, count).map(|corners| (corners, true))
+        let corners = binary(bytes, count)?;
+        Ok(Stl { corners, is_binary: true, ends_early: None })
     } else {
-        text(bytes).map(|corners| (corners, false))
+        text(bytes)
     }
 }
 
@@ -93,7 +106,7 @@ fn binary(bytes: &[u8], count: Option<u32>) -> Result<Vec<[f64; 3]>, MeshError> 
     Ok(corners)
 }
 
-fn text(bytes: &[u8]) -> Result<Vec<[f64; 3]>, MeshError> {
+fn text(bytes: &[u8]) -> Result<Stl, MeshError> {
     let mut words = Words::new(bytes);
     let mut corners = Vec::new();
     loop {
@@ -102,7 +115,7 @@ fn text(bytes: &[u8]) -> Result<Vec<[f64; 3]>, MeshError> {
         words.end_line();
         loop {
             match words.next() {
-                None => return done(corners, words.line()),
+                None => return done(corners, words.line(), false),
                 Some((_, word)) if word.eq_ignore_ascii_case(b"facet") => {
                     words.expect("normal")?;
                     for _ in 0..3 {
@@ -132,14 +145,15 @@ fn text(bytes: &[u8]) -> Result<Vec<[f64; 3]>, MeshError> {
             }
         }
         if words.is_at_end() {
-            return done(corners, words.line());
+            return done(corners, words.line(), true);
         }
     }
 }
 
-fn done(corners: Vec<[f64; 3]>, line: usize) -> Result<Vec<[f64; 3]>, MeshError> {
+fn done(corners: Vec<[f64; 3]>, line: usize, is_ended: bool) -> Result<Stl, MeshError> {
     if corners.is_empty() {
         return Err(MeshError::at_line(line, "the file ends here, and has no triangles"));
     }
-    Ok(corners)
+    let ends_early = (!is_ended).then_some(line);
+    Ok(Stl { corners, is_binary: false, ends_early })
 }
