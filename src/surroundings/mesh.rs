@@ -10,6 +10,7 @@ mod stl;
 mod tile;
 mod words;
 
+use core::any::Any;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -360,7 +361,9 @@ impl<T: Real> Solid<T> for Mesh<T> {
     }
 
     fn cast<B: Real>(&self) -> Mesh<B> {
-        self.with_vertices(Vec3::cast)
+        // In its own precision it is a copy, which shares all that was worked out.
+        let same = (self as &dyn Any).downcast_ref::<Mesh<B>>();
+        same.cloned().unwrap_or_else(|| self.with_vertices(Vec3::cast))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

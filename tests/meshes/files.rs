@@ -183,8 +183,8 @@ fn numbers_that_make_no_mesh_are_refused() {
 fn scene(precision: &str, shape: &str) -> Result<SceneFile, String> {
     let shape = shape.replace("file = \"", &format!("file = \"{}/", folder().display()));
     let text = format!(
-        "precision = \"{precision}\"\n[[surroundings]]\n{shape}\n[[spheres]]\nposition = [0, 0, \
-         90]\nradius = 1\n"
+        "precision = \"{precision}\"\n[[surroundings]]\n{shape}\n[[spheres]]\nposition = [-90, \
+         -90, 90]\nradius = 1\n"
     );
     SceneFile::parse("scene.toml", &text).map_err(|error| error.to_string())
 }

@@ -11,7 +11,7 @@
 
 use super::Mesh;
 use super::seams::unit_normal;
-use crate::contact::{FreeFlight, Start, fall_of_height};
+use crate::contact::{FreeFlight, Start, fall_of_height, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::surroundings::facet::{Facet, LOOKED_FOR, Nearest, Side};
@@ -123,7 +123,7 @@ impl<T: Real> Tile<'_, T> {
         };
         let offset = place - start;
         let is_nearer = |way: &Vec3<T>| {
-            let size = crate::contact::greatest_component(place) + T::from_f64(facet.farthest());
+            let size = greatest_component(place) + T::from_f64(facet.farthest());
             offset.dot(*way) > T::whole(LOOKED_FOR) * T::EPSILON * size * way.length()
         };
         ways.into_iter().flatten().filter(is_nearer).collect()

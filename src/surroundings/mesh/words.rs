@@ -6,17 +6,20 @@ use super::MeshError;
 pub(super) struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// The line that the place is on.
     line: usize,
+    /// The line of the last word.
+    last: usize,
 }
 
 impl<'a> Words<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, line: 1 }
+        Self { bytes, at: 0, line: 1, last: 1 }
     }
 
     /// The line of the last word, from 1.
     pub(super) fn line(&self) -> usize {
-        self.line
+        self.last
     }
 
     fn skip_space(&mut self) {
@@ -37,8 +40,12 @@ impl<'a> Words<'a> {
         self.skip_space();
         let rest = &self.bytes[self.at..];
         let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        if end == 0 {
+            return None;
+        }
         self.at += end;
-        (end > 0).then(|| (self.line, &rest[..end]))
+        self.last = self.line;
+        Some((self.line, &rest[..end]))
     }
 
     /// Passes over the rest of a line.
@@ -66,7 +73,7 @@ impl<'a> Words<'a> {
     }
 
     fn ends_before(&self, wanted: &str) -> MeshError {
-        MeshError::at_line(self.line, format!("the file ends here, where {wanted} belongs"))
+        MeshError::at_line(self.last, format!("the file ends here, where {wanted} belongs"))
     }
 }
 
