@@ -181,6 +181,14 @@ impl<T: Real> Solid<T> for Heightfield<T> {
         self.mesh.check_range(SPACING.name)
     }
 
+    fn is_thin(&self) -> bool {
+        true
+    }
+
+    fn area(&self) -> Option<T> {
+        self.mesh.area()
+    }
+
     fn cast<B: Real>(&self) -> Heightfield<B> {
         Heightfield { mesh: self.mesh.cast() }
     }

@@ -360,6 +360,18 @@ impl<T: Real> Solid<T> for Mesh<T> {
         self.check_range(if self.source == Source::Numbers { VERTICES.name } else { FILE.name })
     }
 
+    fn is_thin(&self) -> bool {
+        true
+    }
+
+    fn area(&self) -> Option<T> {
+        let both_sides = |triangle| {
+            let [a, b, c] = self.corners(triangle);
+            (b - a).cross(c - a).length()
+        };
+        Some((0..self.count()).map(both_sides).fold(T::ZERO, |sum, area| sum + area))
+    }
+
     fn cast<B: Real>(&self) -> Mesh<B> {
         // In its own precision it is a copy, which shares all that was worked out.
         let same = (self as &dyn Any).downcast_ref::<Mesh<B>>();
