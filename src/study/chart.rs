@@ -26,6 +26,8 @@ pub enum Mark {
     /// Joined, and each with a marker.
     #[default]
     LineAndMarkers,
+    /// Each by itself, with a marker.
+    Markers,
     /// Each by itself, as a ring: for points that stand out.
     Rings,
     /// Joined by a thin line of dashes with its name at the end, and not in the legend: for
@@ -201,6 +203,10 @@ impl Series {
         self.color.map_or(RGBColor(120, 120, 120), |k| PALETTE[k % PALETTE.len()])
     }
 
+    fn has_markers(&self) -> bool {
+        matches!(self.mark, Mark::LineAndMarkers | Mark::Markers)
+    }
+
     /// The marker of a point, as a polygon: of a disc with so many corners that none is seen.
     fn marker<C, B: DrawingBackend>(&self, place: C) -> MarkerAt<C, B> {
         let corners = match self.shape {
@@ -233,7 +239,7 @@ impl Chart {
     fn legend_entry(&self) -> u32 {
         let longest = self.named().map(|series| series.name.chars().count()).max().unwrap_or(0);
         let width = SIZE.0 - LABELS as u32;
-        width / (width / (longest as u32 * 8 + 48)).max(1)
+        width / (width / (longest as u32 * 6 + 44)).max(1)
     }
 
     fn legend_height(&self) -> u32 {
@@ -260,9 +266,9 @@ impl Chart {
                     }
                 }
                 Mark::Rings => area.draw(&Circle::new((x + 12, y), 6, stroke))?,
-                Mark::Guide => {}
+                Mark::Markers | Mark::Guide => {}
             }
-            if series.mark == Mark::LineAndMarkers {
+            if series.has_markers() {
                 area.draw(&series.marker((x + 12, y)))?;
             }
             let text =
@@ -312,6 +318,7 @@ impl Chart {
             let stroke = color.stroke_width(2);
             let line = places.iter().copied();
             match series.mark {
+                Mark::Markers => chart.draw_series(LineSeries::new([], stroke))?,
                 Mark::Line | Mark::LineAndMarkers => {
                     chart.draw_series(LineSeries::new(line, stroke))?
                 }
@@ -330,7 +337,7 @@ impl Chart {
             let bars = series.bars.iter().filter_map(|[a, b]| place(a).zip(place(b)));
             let bars = bars.map(|(a, b)| PathElement::new([a, b], color.stroke_width(1)));
             chart.draw_series(bars)?;
-            if series.mark == Mark::LineAndMarkers {
+            if series.has_markers() {
                 chart.draw_series(places.iter().map(|&place| series.marker(place)))?;
             }
         }

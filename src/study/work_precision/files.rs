@@ -107,25 +107,45 @@ impl WorkPrecisionReport {
         let point = |result: &Judged| (result.seconds, result.error / size);
         let families = self.families();
         // A colour for each way to move, a shape for each precision.
-        let mut steppings: Vec<_> = families.iter().map(|family| family.stepping).collect();
-        steppings.dedup();
-        let color = |family: &Family| steppings.iter().position(|s| *s == family.stepping);
+        let (mut ways, mut precisions) = (Vec::<Family>::new(), Vec::new());
+        for family in &families {
+            if ways.iter().all(|way| way.stepping != family.stepping) {
+                ways.push(*family);
+            }
+            if !precisions.contains(&family.precision) {
+                precisions.push(family.precision);
+            }
+        }
+        let color = |family: &Family| ways.iter().position(|way| way.stepping == family.stepping);
+        let shape = |precision| match precision {
+            Precision::F32 => Shape::Square,
+            Precision::F64 => Shape::Disc,
+        };
         let mut series = self.guides(&results.iter().map(point).collect::<Vec<_>>());
         series.extend(families.iter().map(|family| {
             let own = results.iter().filter(|result| result.method.family() == *family);
             let bar =
                 |result: &Judged| result.interval.map(|seconds| (seconds, result.error / size));
             Series {
-                name: family.to_string(),
                 color: color(family),
-                mark: Mark::LineAndMarkers,
-                shape: match family.precision {
-                    Precision::F32 => Shape::Square,
-                    Precision::F64 => Shape::Disc,
-                },
+                shape: shape(family.precision),
                 points: own.clone().map(point).collect(),
                 bars: own.map(bar).collect(),
+                ..Series::default()
             }
+        }));
+        // The legend.
+        series.extend(ways.iter().map(|way| Series {
+            name: way.way(),
+            color: color(way),
+            mark: Mark::Line,
+            ..Series::default()
+        }));
+        series.extend(precisions.into_iter().map(|precision| Series {
+            name: precision.to_string(),
+            mark: Mark::Markers,
+            shape: shape(precision),
+            ..Series::default()
         }));
         series.push(Series {
             name: "no other is faster and better".to_owned(),

@@ -103,13 +103,19 @@ impl fmt::Display for Method {
     }
 }
 
+impl Family {
+    /// How it moves, whatever the precision.
+    pub(super) fn way(&self) -> String {
+        match self.stepping {
+            None => "event-driven".to_owned(),
+            Some((integrator, Impact::EndOfStep)) => format!("{integrator}, end of step"),
+            Some((integrator, Impact::SubStep)) => format!("{integrator}, sub-step"),
+        }
+    }
+}
+
 impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.stepping {
-            None => f.write_str("event-driven")?,
-            Some((integrator, Impact::EndOfStep)) => write!(f, "{integrator}, end of step")?,
-            Some((integrator, Impact::SubStep)) => write!(f, "{integrator}, sub-step")?,
-        }
-        write!(f, ", {}", self.precision)
+        write!(f, "{}, {}", self.way(), self.precision)
     }
 }
