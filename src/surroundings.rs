@@ -25,9 +25,12 @@ mod cylinder;
 mod disc;
 mod entry;
 mod facet;
+mod features;
 mod fixed_sphere;
 mod frustum;
+mod heightfield;
 mod hull;
+mod mesh;
 mod mistake;
 mod parts;
 mod piece;
@@ -44,7 +47,8 @@ mod triangle;
 mod tube;
 
 #[cfg(feature = "files")]
-pub(crate) use entry::{Key, Meaning, NO_VECTOR, ShapeEntry, Value};
+pub(crate) use entry::{FilePath, Key, Meaning, NO_VECTOR, ShapeEntry, Value};
+pub(crate) use features::{FeatureRef, Features};
 pub(crate) use mistake::{Mistake, corners, finite, is_positive, positive};
 pub(crate) use placement::Placement;
 pub(crate) use solid::ShapeKind;
@@ -53,6 +57,7 @@ pub use band::Band;
 pub use chain::Chain;
 pub use facet::Facet;
 pub use frustum::Frustum;
+pub use mesh::{FilePlace, MeshError, MeshReport};
 pub use polytope::Polytope;
 pub use rod::Rod;
 
@@ -75,6 +80,10 @@ solids! {
         triangle::Triangle,
         /// A convex hull.
         hull::Hull,
+        /// A surface of triangles.
+        mesh::Mesh,
+        /// A surface over a grid.
+        heightfield::Heightfield,
         /// A capsule, solid or hollow.
         capsule::Capsule,
         /// A cylinder with or without ends, solid or hollow.
@@ -166,15 +175,6 @@ impl<L: Lane> Clearance<L> {
     #[inline(always)]
     pub fn way_to_touch(&self) -> Vec3<L> {
         -(self.arm * (self.gap / self.arm.length()))
-    }
-}
-
-impl<T: Real> Shape<T> {
-    /// The corners of the box around the solid; `None` for one without end.
-    pub(crate) fn bounds(&self) -> Option<[Vec3<T>; 2]> {
-        let bounds = self.features().into_iter().map(|feature| feature.bounds());
-        let bounds: Option<Vec<_>> = bounds.collect();
-        bounds?.into_iter().reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)])
     }
 }
 
@@ -285,14 +285,4 @@ impl<T: Real> Feature<T> {
     pub(crate) fn farthest(&self) -> f64 {
         Obstacle::farthest(self)
     }
-}
-
-/// The features of all shapes, and for each of them which shape it is of.
-pub(crate) fn features_of<T: Real>(shapes: &[Shape<T>]) -> (Vec<Feature<T>>, Vec<u32>) {
-    let (mut features, mut parts) = (Vec::new(), Vec::new());
-    for (part, shape) in shapes.iter().enumerate() {
-        features.extend(shape.features());
-        parts.resize(features.len(), part as u32);
-    }
-    (features, parts)
 }

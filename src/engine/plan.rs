@@ -11,6 +11,7 @@ use crate::contact::Surface;
 use crate::motion::Integrator;
 use crate::real::Real;
 use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene, Summation};
+use crate::surroundings::Shape;
 use crate::vec3::Vec3;
 
 /// What becomes of the orientations.
@@ -129,7 +130,7 @@ impl Plan {
         let is_spinning = bodies.spin.iter().any(|column| column.iter().any(|&w| w != T::ZERO));
         let features = match scene.encounters {
             Encounters::None => 0,
-            _ => scene.surroundings.iter().map(|shape| shape.features().len()).sum(),
+            _ => scene.surroundings.iter().map(Shape::count).sum(),
         };
         let turning = match scene.stepped.orientation {
             _ if !changes_spins && !is_spinning => Turning::Never,

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::bodies::Bodies;
 use crate::real::Real;
-use crate::surroundings::{Shape, features_of};
+use crate::surroundings::{Features, Shape};
 use crate::vec3::Vec3;
 
 /// What a body touches.
@@ -88,16 +88,19 @@ fn touched<T: Real>(
     let (center, radius) = (bodies.position_of(body), bodies.radius.of(body));
     let near = NEAR * radius.to_f64();
     let unit = |vector: Vec3<f64>| vector * (1.0 / vector.length());
-    let (features, parts) = features_of(shapes);
-    let mut touched: Vec<_> = features
-        .iter()
-        .zip(parts)
-        .filter_map(|(feature, part)| {
-            let clearance = feature.clearance(center, radius);
-            let is_near = clearance.gap.to_f64().abs() <= near;
-            is_near.then(|| (Touched::Part(part as usize), unit(clearance.arm.cast())))
-        })
-        .collect();
+    let features = Features::new(shapes);
+    let mut touched = Vec::new();
+    let mut test = |feature: u32| {
+        let clearance = features.at(feature).clearance(center, radius);
+        if clearance.gap.to_f64().abs() <= near {
+            let part = Touched::Part(features.shape_of(feature) as usize);
+            touched.push((part, unit(clearance.arm.cast())));
+        }
+    };
+    (0..features.alone().len() as u32).for_each(&mut test);
+    let reach = radius + T::from_f64(near);
+    let reach = Vec3::new(reach, reach, reach);
+    features.for_each_tile([center - reach, center + reach], |_, feature| test(feature));
     for other in (0..bodies.len()).filter(|other| *other != body) {
         let distance = (center - bodies.position_of(other)).cast::<f64>();
         let reach = radius.to_f64() + bodies.radius.of(other).to_f64();

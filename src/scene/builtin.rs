@@ -65,6 +65,7 @@ pub fn builtin_scenes() -> &'static [BuiltinScene] {
         "sinai-billiard": "a ball between four walls, with a post in the middle",
         "ball-in-torus": "a ball in a torus, which keeps its angular momentum about the axis",
         "ball-in-tube": "a rough ball in a vertical tube, which comes up again",
+        "terrain": "1,000 rough balls on hills of 2,048 triangles",
         "free-flight": "100,000 spinning spheres that meet nothing",
     }
 }

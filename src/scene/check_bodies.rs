@@ -13,7 +13,7 @@ use crate::mat3::Mat3;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::space::neighbours::{Neighbours, largest, tolerance};
-use crate::surroundings::{Feature, Shape, features_of};
+use crate::surroundings::{Feature, FeatureRef, Features, Shape};
 use crate::vec3::Vec3;
 
 /// By which part of their radii spheres of a state may overlap what they touch, and by
@@ -249,7 +249,7 @@ fn surroundings<T: Real>(
 ) -> Option<(usize, Found)> {
     let epsilon = T::EPSILON.to_f64();
     let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
-    let tolerated = |feature: &Feature<T>, body: usize, center: Vec3<T>, radius: T| {
+    let tolerated = |feature: FeatureRef<'_, T>, body: usize, center: Vec3<T>, radius: T| {
         let coordinate = largest(center.cast().to_array()) + feature.farthest();
         let radius = radius.to_f64();
         tolerance(epsilon, coordinate, radius) + allowance.of(body, radius)
@@ -312,12 +312,11 @@ fn room<T: Real>(
     /// More planes make no slab that a person has in mind.
     const MOST: usize = 1000;
     let epsilon = T::EPSILON.to_f64();
-    let (features, parts) = features_of(shapes);
-    let faces: Vec<_> = features
-        .iter()
-        .zip(parts)
-        .filter_map(|(feature, part)| match feature {
-            Feature::Plane(plane) => Some((*plane, part as usize)),
+    let features = Features::new(shapes);
+    let faces: Vec<_> = (0..)
+        .zip(features.alone())
+        .filter_map(|(number, feature)| match feature {
+            Feature::Plane(plane) => Some((*plane, features.shape_of(number) as usize)),
             _ => None,
         })
         .take(MOST)

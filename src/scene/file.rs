@@ -296,7 +296,8 @@ impl SceneFile {
             }
         };
         for (index, raw) in self.raw.surroundings.iter().enumerate() {
-            asked.surroundings.push(GivenShape::exact(fixed::shape(&origin, index, raw)?));
+            let shape = fixed::shape(&origin, index, raw, &self.folder)?;
+            asked.surroundings.push(GivenShape::exact(shape));
             asked.part_names.push(raw.name.clone());
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
@@ -326,8 +327,9 @@ impl SceneFile {
     /// The files that the scene is read from besides its own.
     #[must_use]
     pub fn state_files(&self) -> Vec<PathBuf> {
-        let files = self.raw.spheres.iter().filter_map(|raw| raw.file.as_ref());
-        files.map(|file| self.folder.join(file)).collect()
+        let states = self.raw.spheres.iter().filter_map(|raw| raw.file.as_deref());
+        let shapes = self.raw.surroundings.iter().flat_map(|raw| raw.values.files());
+        states.chain(shapes).map(|file| self.folder.join(file)).collect()
     }
 
     /// Spheres from a state file; what it has no column for, from the entry.

@@ -1,5 +1,7 @@
 //! Fixed: the shapes of a scene file, each in its place.
 
+use std::path::Path;
+
 use super::error::{Problem, SceneError};
 use super::origin::Origin;
 use super::raw::{KEYS, Number, RawRotation, RawSurroundings, Vector};
@@ -13,6 +15,7 @@ pub(super) fn shape(
     origin: &Origin,
     index: usize,
     raw: &RawSurroundings,
+    folder: &Path,
 ) -> Result<Shape<f64>, SceneError> {
     let entry = format!("surroundings[{index}]");
     let Some(ShapeKind { keys, read, .. }) = raw.shape else {
@@ -26,7 +29,7 @@ pub(super) fn shape(
         let problem = Problem::conflict(format!("shape = \"{name}\""), reason);
         return Err(origin.error_in(&entry, (key.name, problem)));
     }
-    read(&raw.values)
+    read(&raw.values.in_folder(folder))
         .and_then(|shape| placed(shape, raw))
         .map_err(|mistake| origin.error_in(&entry, mistake))
 }

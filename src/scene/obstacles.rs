@@ -2,15 +2,14 @@
 
 use crate::real::Real;
 use crate::space::{Bounds, Tree};
-use crate::surroundings::{Feature, Shape, features_of};
+use crate::surroundings::{Feature, FeatureRef, Features, Shape};
 use crate::vec3::Vec3;
 
 /// All features of a scene's surroundings, found by place.
 #[derive(Debug)]
 pub(super) struct Obstacles<T: Real> {
-    features: Vec<Feature<T>>,
-    /// The shape that each feature belongs to.
-    shapes: Vec<u32>,
+    features: Features<T>,
+    /// The boxes of those that are no triangles of meshes.
     tree: Tree<T>,
 }
 
@@ -27,9 +26,9 @@ pub(super) struct Misplaced {
 
 impl<T: Real> Obstacles<T> {
     pub(super) fn new(shapes: &[Shape<T>]) -> Self {
-        let (features, shapes) = features_of(shapes);
-        let tree = Tree::new(features.iter().map(Feature::bounds));
-        Self { features, shapes, tree }
+        let features = Features::new(shapes);
+        let tree = Tree::new(features.alone().iter().map(Feature::bounds));
+        Self { features, tree }
     }
 
     /// Whether a sphere overlaps nothing.
@@ -37,6 +36,7 @@ impl<T: Real> Obstacles<T> {
         let overlaps = |feature: u32| self.gap(feature, center, radius) < T::ZERO;
         !self.tree.endless().iter().any(|&feature| overlaps(feature))
             && !self.tree.any(around(center, radius), overlaps)
+            && !self.features.any_tile(around(center, radius), overlaps)
     }
 
     /// Of these spheres, in their order, that overlap something by more than a tolerance,
@@ -45,7 +45,7 @@ impl<T: Real> Obstacles<T> {
         &self,
         bodies: impl Iterator<Item = usize> + Clone,
         sphere: impl Fn(usize) -> (Vec3<T>, T),
-        tolerance: impl Fn(&Feature<T>, usize, Vec3<T>, T) -> f64,
+        tolerance: impl Fn(FeatureRef<'_, T>, usize, Vec3<T>, T) -> f64,
     ) -> Option<Misplaced> {
         let mut first: Option<(u32, usize, f64)> = None;
         let mut test = |feature: u32, body: usize| {
@@ -56,7 +56,7 @@ impl<T: Real> Obstacles<T> {
             let gap = self.gap(feature, center, radius);
             if gap < T::ZERO {
                 let gap = gap.to_f64();
-                if gap < -tolerance(&self.features[feature as usize], body, center, radius) {
+                if gap < -tolerance(self.features.at(feature), body, center, radius) {
                     first = Some((feature, body, gap));
                 }
             }
@@ -66,14 +66,16 @@ impl<T: Real> Obstacles<T> {
         }
         for body in bodies {
             let (center, radius) = sphere(body);
-            self.tree.for_each(around(center, radius), |feature| test(feature, body));
+            let around = around(center, radius);
+            self.tree.for_each(around, |feature| test(feature, body));
+            self.features.for_each_tile(around, |_, feature| test(feature, body));
         }
         let (feature, body, gap) = first?;
-        Some(Misplaced { shape: self.shapes[feature as usize] as usize, body, depth: -gap })
+        Some(Misplaced { shape: self.features.shape_of(feature) as usize, body, depth: -gap })
     }
 
     fn gap(&self, feature: u32, center: Vec3<T>, radius: T) -> T {
-        self.features[feature as usize].clearance(center, radius).gap
+        self.features.at(feature).clearance(center, radius).gap
     }
 }
 

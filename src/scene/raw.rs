@@ -153,6 +153,10 @@ pub(super) struct Number(pub(super) f64);
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Whole(pub(super) u64);
 
+/// Numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Numbers(pub(super) Vec<f64>);
+
 /// Three numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vector(pub(super) [f64; 3]);
@@ -227,6 +231,24 @@ deserialize!(Whole, deserialize_any, "a whole number from 0 up", {
 
     fn visit_u64<E: Error>(self, value: u64) -> Result<Whole, E> {
         Ok(Whole(value))
+    }
+});
+
+deserialize!(Numbers, deserialize_any, "a number, or a list of them", {
+    fn visit_f64<E: Error>(self, value: f64) -> Result<Numbers, E> {
+        Ok(Numbers(vec![value]))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<Numbers, E> {
+        Ok(Numbers(vec![value as f64]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Numbers, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(Number(number)) = elements.next_element()? {
+            numbers.push(number);
+        }
+        Ok(Numbers(numbers))
     }
 });
 

@@ -70,8 +70,10 @@ pub struct BroadPhase<T: Real> {
     grids: Vec<(Grid<T>, u32)>,
     ranks: Vec<u32>,
     order: CellOrder,
-    /// The boxes of the fixed parts.
+    /// The boxes of the fixed parts that have no hierarchy of their own.
     tree: Tree<T>,
+    /// Whether there are others.
+    has_more_parts: bool,
     /// The greatest coordinate at the last search, length.
     farthest: T,
     /// Bodies and fixed parts, if they are many, in a diameter cubed, seen at the
@@ -95,7 +97,8 @@ impl<T: Real> BroadPhase<T> {
             grids: Vec::new(),
             ranks: Vec::new(),
             order: CellOrder::default(),
-            tree: Tree::new((0..parts.count()).map(|part| parts.bounds(part))),
+            tree: Tree::new((0..parts.alone()).map(|part| parts.bounds(part))),
+            has_more_parts: parts.alone() < parts.count(),
             farthest: T::ZERO,
             density: None,
             mean_diameter: 2.0 * sum / len.max(1) as f64,
@@ -123,7 +126,7 @@ impl<T: Real> BroadPhase<T> {
     /// is near to many.
     #[must_use]
     pub fn has_many_parts(&self) -> bool {
-        self.tree.len() > FEW_PARTS
+        self.has_more_parts || self.tree.len() > FEW_PARTS
     }
 
     /// By how much the rounding of a coordinate can move a body in a step, length.

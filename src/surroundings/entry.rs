@@ -1,5 +1,7 @@
 //! Entry: a shape as a scene file describes it, as plain values under keys.
 
+use std::path::{Path, PathBuf};
+
 use super::mistake::Mistake;
 
 /// What the value of a key says.
@@ -19,6 +21,14 @@ pub(crate) enum Meaning {
     Ratio,
     /// `true` or `false`.
     Flag,
+    /// A list of three whole numbers each.
+    Triples,
+    /// A list of lengths, or one.
+    Numbers,
+    /// A whole number.
+    Count,
+    /// The path of a file.
+    Path,
 }
 
 /// A key of a shape's entry. A name has one meaning in all shapes.
@@ -30,6 +40,9 @@ pub(crate) struct Key {
 
 /// The corners of a shape.
 pub(super) const VERTICES: Key = Key::new("vertices", Meaning::Points);
+
+/// What a shape is made of.
+pub(super) const FILE: Key = Key::new("file", Meaning::Path);
 
 /// The middle of a shape.
 pub(super) const CENTER: Key = Key::new("center", Meaning::Point);
@@ -75,6 +88,36 @@ pub(crate) enum Value {
     Number(f64),
     /// Of a flag.
     Flag(bool),
+    /// Of a list of three whole numbers each.
+    Triples(Vec<[u32; 3]>),
+    /// Of a list of numbers.
+    Numbers(Vec<f64>),
+    /// Of a whole number.
+    Count(u64),
+    /// Of a path.
+    Path(FilePath),
+}
+
+/// The path of a file.
+#[derive(Clone, Debug)]
+pub(crate) struct FilePath {
+    /// As it is given.
+    pub(crate) given: String,
+    /// From the folder that it starts from.
+    pub(super) whole: PathBuf,
+}
+
+impl FilePath {
+    /// A path as it is given.
+    pub(crate) fn new(given: String) -> Self {
+        Self { whole: PathBuf::from(&given), given }
+    }
+
+    /// A file that is refused.
+    pub(super) fn mistake(&self, key: Key, error: &dyn core::fmt::Display) -> Mistake {
+        let wanted = "give the path of another file, from the folder of the scene file";
+        Mistake::described(key.name, format!("{:?}: {error}", self.given), wanted)
+    }
 }
 
 /// The values that an entry gives.
@@ -148,6 +191,58 @@ impl ShapeEntry {
         }
     }
 
+    /// The triples of a key that has to be there.
+    pub(super) fn triples(&self, key: Key) -> Result<&[[u32; 3]], Mistake> {
+        match self.value(key) {
+            Some(Value::Triples(triples)) => Ok(triples),
+            _ => Err(Mistake::missing(key.name, NO_TRIPLES)),
+        }
+    }
+
+    /// The numbers of a key that may be there.
+    pub(super) fn numbers(&self, key: Key) -> Option<&[f64]> {
+        match self.value(key) {
+            Some(Value::Numbers(numbers)) => Some(numbers),
+            _ => None,
+        }
+    }
+
+    /// The whole number of a key that has to be there; `wanted` says what it is.
+    pub(super) fn count(&self, key: Key, wanted: &str) -> Result<usize, Mistake> {
+        match self.value(key) {
+            Some(Value::Count(count)) => Ok(usize::try_from(*count).unwrap_or(usize::MAX)),
+            _ => Err(Mistake::missing(key.name, wanted)),
+        }
+    }
+
+    /// The path of a key that may be there.
+    pub(super) fn path(&self, key: Key) -> Option<&FilePath> {
+        match self.value(key) {
+            Some(Value::Path(path)) => Some(path),
+            _ => None,
+        }
+    }
+
+    /// The files that the entry names.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &str> {
+        self.values.iter().filter_map(|(_, value)| match value {
+            Value::Path(path) => Some(path.given.as_str()),
+            _ => None,
+        })
+    }
+
+    /// The same with all paths from a folder.
+    #[must_use]
+    pub(crate) fn in_folder(&self, folder: &Path) -> Self {
+        let mut entry = self.clone();
+        for (_, value) in &mut entry.values {
+            if let Value::Path(path) = value {
+                path.whole = folder.join(&path.given);
+            }
+        }
+        entry
+    }
+
     /// A flag, false if it is not there.
     pub(super) fn flag(&self, key: Key) -> bool {
         matches!(self.value(key), Some(Value::Flag(true)))
@@ -161,6 +256,9 @@ impl ShapeEntry {
             match value {
                 Value::Vector(point) if key.meaning == Meaning::Point => {
                     *point = point.map(|component| component * factor);
+                }
+                Value::Numbers(lengths) => {
+                    lengths.iter_mut().for_each(|length| *length *= factor);
                 }
                 Value::Points(points) => {
                     points.iter_mut().flatten().for_each(|component| *component *= factor);
@@ -187,6 +285,10 @@ const NO_POINTS: &str = "a list of points belongs here, as in [[0, 0, 0], [1, 0,
 /// What belongs where a profile is missing.
 const NO_PROFILE: &str =
     "a list of places [distance from the axis, height] belongs here, as in [[1, 0], [2, 3]]";
+
+/// What belongs where triples are missing.
+const NO_TRIPLES: &str =
+    "a list of three numbers of vertices each, from 0, belongs here, as in [[0, 1, 2], …]";
 
 /// What belongs where a vector is missing.
 pub(crate) const NO_VECTOR: &str = "three numbers belong here, as in [0.0, 0.0, 1.0]";

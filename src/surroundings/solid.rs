@@ -3,10 +3,11 @@
 use super::entry::{Key, ShapeEntry};
 use super::mistake::Mistake;
 use super::placement::Placement;
-use super::{Clearance, Feature};
+use super::{Clearance, Feature, Mesh};
 use crate::contact::FreeFlight;
 use crate::lane::Lane;
 use crate::real::Real;
+use crate::space::Bounds;
 use crate::vec3::Vec3;
 
 /// What a sphere touches in one point at a time: the kernels' side of a shape.
@@ -72,6 +73,23 @@ pub(crate) trait Solid<T: Real>: Clone {
     /// What a sphere can touch in one point at a time: the shape itself, or
     /// what it falls apart into.
     fn features(&self) -> Vec<Feature<T>>;
+
+    /// How many features there are.
+    fn count(&self) -> usize {
+        self.features().len()
+    }
+
+    /// The corners of the box around the solid; `None` for one without end.
+    fn extent(&self) -> Option<Bounds<T>> {
+        let bounds = self.features().into_iter().map(|feature| feature.bounds());
+        let bounds: Option<Vec<_>> = bounds.collect();
+        bounds?.into_iter().reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)])
+    }
+
+    /// Of many triangles: the mesh that they are of, which has its own way to find them.
+    fn mesh(&self) -> Option<&Mesh<T>> {
+        None
+    }
 
     /// Whether spheres are inside.
     fn is_container(&self) -> bool {
@@ -255,6 +273,35 @@ macro_rules! solids {
             pub(crate) fn placed(&self, at: &Placement<T>) -> Self {
                 match self {
                     $(Self::$solid(solid) => Self::$solid(solid.placed(at)),)*
+                }
+            }
+
+            /// As [`Solid::count`].
+            pub(crate) fn count(&self) -> usize {
+                match self {
+                    $(Self::$solid(solid) => Solid::count(solid),)*
+                }
+            }
+
+            /// As [`Solid::extent`].
+            pub(crate) fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+                match self {
+                    $(Self::$solid(solid) => solid.extent(),)*
+                }
+            }
+
+            /// The mesh that the shape is, or is made of.
+            ///
+            /// ```
+            /// use carom::surroundings::{Heightfield, Shape};
+            /// let field = Shape::from(Heightfield::new([0.0; 3], [1.0; 2], 2, &[0.0; 4])?);
+            /// assert_eq!(field.mesh().map(|mesh| mesh.triangles().len()), Some(2));
+            /// # Ok::<(), carom::surroundings::MeshError>(())
+            /// ```
+            #[must_use]
+            pub fn mesh(&self) -> Option<&Mesh<T>> {
+                match self {
+                    $(Self::$solid(solid) => Solid::mesh(solid),)*
                 }
             }
 

@@ -240,6 +240,31 @@ fn explain_tells_what_this_engine_does() {
 }
 
 #[test]
+fn explain_tells_what_meshes_are_like() {
+    let folder = Folder::with(
+        "duration = 1.0\n[[surroundings]]\nshape = \"mesh\"\nfile = \"roof.obj\"\n\
+         [[spheres]]\nposition = [0, 0, 9]\nradius = 1\n",
+    );
+    let roof =
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nv 2 0 0\nv 0 -1 0\nf 1 2 3 4\nf 1 2 5\nf 1 2 6\n";
+    std::fs::write(folder.path("roof.obj"), roof).unwrap();
+    let plan = folder.says("explain scene.toml").well();
+    for words in [
+        "surroundings[0]       4 triangles between 6 vertices, 3 faces after seams, 1 component",
+        "bounds [0.0, -1.0, 0.0] to [2.0, 1.0, 0.5]",
+        "1 non-manifold edge",
+        "1 degenerate triangle",
+        "4 features",
+    ] {
+        assert!(plan.contains(words), "no {words}: {plan}");
+    }
+    let plan = folder.says("explain terrain").well();
+    for words in ["2048 triangles between 1089 vertices", "1 component", "open: 128 open edges"] {
+        assert!(plan.contains(words), "no {words}: {plan}");
+    }
+}
+
+#[test]
 fn a_person_gets_a_page_of_eighty_columns() {
     let folder = Folder::with(&without_steps(FLUID));
     for scene in ["scene.toml", "wedge", "lorentz-gas"] {

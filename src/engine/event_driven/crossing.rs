@@ -106,7 +106,7 @@ pub(super) fn cross<T: Real>(
     region.agendas[slot as usize].cell = cell;
     plan_crossing(setting, region, slot, now, period);
     if setting.plan.features > 0 {
-        search_features_of_cell(setting, region, slot);
+        search_features_of_cell(setting, region, slot, now);
     }
     if !setting.plan.has_pairs {
         return Ok(());

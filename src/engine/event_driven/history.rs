@@ -57,7 +57,7 @@ pub(super) fn tell<T: Real>(
                 pair_event(clock, [own, region.index[other as usize]], &made, key.time)
             }
             Made::Feature(feature, made) => {
-                feature_event(clock, (own, setting.parts[feature as usize]), &made, key.time)
+                feature_event(clock, (own, setting.features.shape_of(feature)), &made, key.time)
             }
             Made::Other => continue,
         });

@@ -158,14 +158,13 @@ impl Near {
 pub(super) fn span<T: Real>(
     least: T,
     interiors: impl Iterator<Item = [Vec3<T>; 2]>,
-    features: &[Feature<T>],
+    solids: impl Iterator<Item = [Vec3<T>; 2]>,
     centers: impl Iterator<Item = Vec3<T>>,
 ) -> Span<T> {
     let inside = interiors.reduce(|[a, b], [c, d]| [a.greater(c), b.lesser(d)]);
     if let Some([lower, upper]) = inside {
         return Span::new(lower, upper, Ends::Closed);
     }
-    let solids = features.iter().filter_map(Feature::bounds);
     let points = solids.chain(centers.map(|center| [center, center]));
     let all = points.reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)]);
     let [lower, upper] = all.unwrap_or([Vec3::ZERO, Vec3::ZERO]);

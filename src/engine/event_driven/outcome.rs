@@ -118,20 +118,20 @@ pub(super) fn feature_outcome<T: Real>(
 /// of times and places allows: the time is taken from the flight's own start, and the
 /// surfaces touch exactly.
 fn touching_hollow<T: Real>(setting: &Setting<T>, met: &Met<T>, feature: u32) -> Option<Flight<T>> {
-    let is_hollow = setting.features[feature as usize].is_hollow();
+    let is_hollow = setting.features.at(feature).is_hollow();
     if !is_hollow || setting.periodic.is_some() {
         return None;
     }
     let wait = time_to_feature(setting, met, Image { feature, image: 0 })?;
     let flight = met.flight;
     let (position, velocity) = setting.state_of(&Flight { since: T::ZERO, ..flight }, wait);
-    let clearance = setting.features[feature as usize].clearance(position, flight.radius);
+    let clearance = setting.features.at(feature).clearance(position, flight.radius);
     Some(Flight { position: position + clearance.way_to_touch(), velocity, ..flight })
 }
 
 /// Where a body stands to a feature, of all its images the one that is touched.
 fn clearance<T: Real>(setting: &Setting<T>, flight: &Flight<T>, feature: u32) -> Clearance<T> {
-    let feature = &setting.features[feature as usize];
+    let feature = setting.features.at(feature);
     let clearances = setting
         .images
         .iter()

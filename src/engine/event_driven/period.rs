@@ -174,7 +174,7 @@ pub(super) fn turn<T: Real>(region: &mut Region<'_, T>, slot: usize, time: T, si
 /// flights that start within the period; where there is it, digits are enough.
 fn follows_hollow<T: Real>(setting: &Setting<T>, region: &Region<'_, T>, slot: usize) -> bool {
     let is_hollow = |feature: u32| {
-        setting.features.get(feature as usize).is_some_and(|feature| feature.is_hollow())
+        (feature as usize) < setting.features.len() && setting.features.at(feature).is_hollow()
     };
     !setting.plan.has_screening
         && setting.periodic.is_none()

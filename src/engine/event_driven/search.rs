@@ -61,7 +61,7 @@ pub(super) fn search<T: Real>(
 ) {
     region.agendas[slot as usize].clear(period);
     if setting.plan.features > 0 {
-        search_features(setting, region, slot);
+        search_features(setting, region, slot, now);
     }
     if setting.plan.has_pairs {
         (setting.search_bodies)(setting, region, slot, nearby, now);

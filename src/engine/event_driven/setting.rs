@@ -14,7 +14,7 @@ use crate::scene::Scene;
 use crate::space::cells::{Ends, Span};
 use crate::space::levels::Levels;
 use crate::space::{OpenSpace, PeriodicBox, Space};
-use crate::surroundings::{Feature, features_of};
+use crate::surroundings::{Feature, Features};
 use crate::vec3::Vec3;
 
 /// So few bodies and fixed parts are tried all with each other: no cells are crossed,
@@ -28,9 +28,7 @@ pub(super) struct Setting<T: Real> {
     pub plan: Plan,
     pub gravity: Vec3<T>,
     pub periodic: Option<PeriodicBox<T>>,
-    pub features: Vec<Feature<T>>,
-    /// The part of the surroundings that each feature belongs to.
-    pub parts: Vec<u32>,
+    pub features: Features<T>,
     /// Which of them are counted apart.
     pub counted: Counted,
     /// The periodic images of a feature.
@@ -61,27 +59,35 @@ impl<T: Real> Setting<T> {
         let counted = Counted::of(&scene);
         let bodies = scene.bodies;
         let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
-        let (features, parts) = features_of(met);
+        let features = Features::new(met);
         let images = scene.periodic.map_or_else(|| OpenSpace.images(), Space::images);
         let len = bodies.len();
         let radius = bodies.radius.greatest();
         let interiors = scene.surroundings.iter().filter_map(|shape| shape.interior());
         // Wide enough for cells that do not all neighbour each other.
         let least = radius * T::whole(9);
-        let grid = match scene.periodic {
+        let interiors = interiors.filter(|_| plan.features > 0);
+        let span = |meshes: bool| match scene.periodic {
             Some(PeriodicBox { lower, upper }) => Span::new(lower, upper, Ends::Joined),
             None => near::span(
                 least,
-                interiors.filter(|_| plan.features > 0),
-                &features,
+                interiors.clone(),
+                features
+                    .alone()
+                    .iter()
+                    .filter_map(Feature::bounds)
+                    .chain(features.mesh_bounds().filter(|_| meshes)),
                 (0..len).map(|index| bodies.position_of(index)),
             ),
         };
-        let bounded = features.iter().filter(|feature| feature.bounds().is_some()).count();
+        let grid = span(true);
+        // A mesh has the time of the plane that it may be.
+        let spacing = span(false).spacing(radius + radius, len);
+        let bounded = features.alone().iter().filter(|feature| feature.bounds().is_some()).count();
         let is_periodic = scene.periodic.is_some();
         let fitting = |span| Levels::fitting(span, &bodies.radius, len, bounded);
         // Each image of a solid without end would be near everywhere.
-        let can_fold = !is_periodic || bounded == features.len();
+        let can_fold = !is_periodic || bounded == features.alone().len();
         let is_few =
             !is_periodic && len + features.len() <= FEW && execution.order != Order::Windows;
         let folded = || {
@@ -97,20 +103,20 @@ impl<T: Real> Setting<T> {
         let is_wide = !is_periodic || !(0..3).any(|axis| cells.coarsest().is_narrow(axis));
         let can_be_windows = plan.has_pairs && !is_few && cells.len() == 1 && is_wide;
         plan.choose_order(execution, can_be_windows);
-        let near = Near::new(&features, &images, cells.finest(), radius);
+        let near = Near::new(features.alone(), &images, cells.finest(), radius);
+        let has_near = plan.has_pairs || near.has_cells() || features.has_meshes();
         let setting = Self {
             gravity: scene.gravity,
             periodic: scene.periodic,
             features,
-            parts,
             counted,
             images,
             further: further(cells.coarsest(), is_periodic),
             coarse_further: further(cells.coarsest(), is_periodic),
-            has_cells: !is_few && (plan.has_pairs || near.has_cells()),
+            has_cells: !is_few && has_near,
             near,
             search_bodies: searcher(&plan, is_periodic),
-            spacing: grid.spacing(radius + radius, len),
+            spacing,
             inverse_mass: bodies.mass.map(|mass| T::ONE / mass),
             inverse_inertia: bodies.inertia.map(|inertia| T::ONE / inertia),
             bodies,
@@ -122,7 +128,7 @@ impl<T: Real> Setting<T> {
     /// The counter of a feature's part, if it has one.
     #[inline(always)]
     pub fn counter(&self, feature: u32) -> Option<Counter> {
-        self.counted.counter(self.parts[feature as usize])
+        self.counted.counter(self.features.shape_of(feature))
     }
 
     /// Centre and velocity on a flight at a time.
@@ -150,5 +156,6 @@ impl<T: Real> Setting<T> {
             + self.inverse_mass.bytes()
             + self.inverse_inertia.bytes()
             + self.near.bytes()
+            + self.features.bytes()
     }
 }

@@ -61,7 +61,7 @@ pub(super) fn take_turn<T: Real>(
                     region.worker.calendar.forget(time, [slot; 2]);
                     let made = collide_with_feature(setting, region, clock, contact, nearby, when);
                     if let Some(on_event) = on_event {
-                        let part = setting.parts[feature as usize];
+                        let part = setting.features.shape_of(feature);
                         let bodies = (region.index[slot as usize], part);
                         on_event(&feature_event(clock, bodies, &made, time));
                     }

@@ -93,7 +93,7 @@ fn event<T: Real>(
         };
         (partner, outcome.offset * share)
     } else {
-        (Partner::Surroundings(setting.parts[contact.b as usize]), outcome.offset)
+        (Partner::Surroundings(setting.features.shape_of(contact.b)), outcome.offset)
     };
     Event {
         time: clock.time_before_end(setting.exact_dt, contact.ago.to_f64()),

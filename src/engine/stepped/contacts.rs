@@ -65,7 +65,8 @@ impl<T: Real> Contact<T> {
     /// Earlier contacts first, those of one time by rank.
     pub fn order(&self, other: &Self) -> Ordering {
         let later = other.ago.partial_cmp(&self.ago).unwrap_or(Ordering::Equal);
-        later.then(self.rank.cmp(&other.rank))
+        // Neighbours in one plane have one rank.
+        later.then(self.rank.cmp(&other.rank)).then(self.b.cmp(&other.b))
     }
 }
 

@@ -148,6 +148,6 @@ impl<T: Real> Engine<T> for Driver<T> {
     }
 
     fn bytes(&self) -> usize {
-        self.region.bytes()
+        self.region.bytes() + self.setting.features.bytes()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::contacts::Contact;
 use super::lanes::in_lanes;
-use super::narrow::{AtEnd, Detection, touching_pairs, touching_surroundings};
+use super::narrow::{AtEnd, Detection, Part, touching_pairs, touching_surroundings};
 use super::region::{Nearby, Region};
 use super::setting::Setting;
 use super::state::State;
@@ -79,8 +79,9 @@ fn search<L: Lane<Scalar = T>, T: Real>(
     }
     let shells = shells(nearby);
     for (number, near) in chunk.at_parts(shells) {
-        let feature = (number, &setting.features[number as usize]);
-        touching_surroundings::<L, T>(state, detection, feature, near, found);
+        let (feature, surface) = (setting.features.at(number), setting.features.surface_of(number));
+        let part = Part { number, surface, feature };
+        touching_surroundings::<L, T>(state, detection, &part, near, found);
     }
 }
 

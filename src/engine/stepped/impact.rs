@@ -10,7 +10,7 @@ use crate::lane::{Lane, Mask};
 use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::space::{OpenSpace, PeriodicBox, Space};
-use crate::surroundings::{Clearance, Feature};
+use crate::surroundings::{Clearance, FeatureRef};
 use crate::vec3::Vec3;
 
 /// The motion of a body just after a contact.
@@ -142,7 +142,7 @@ impl<T: Real, W: Laws<T>> Impacts<T, W> {
         &self,
         state: &State<T>,
         path: &Path<T>,
-        feature: &Feature<T>,
+        feature: &FeatureRef<'_, T>,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
     ) {
@@ -163,7 +163,7 @@ impl<T: Real, W: Laws<T>> Impacts<T, W> {
         &self,
         state: &State<T>,
         path: &Path<T>,
-        feature: &Feature<T>,
+        feature: &FeatureRef<'_, T>,
         contacts: &[Contact<T>],
         outcomes: &mut [Outcome<T>],
     ) {

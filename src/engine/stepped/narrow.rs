@@ -11,11 +11,20 @@ use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::space::broadphase::Pair;
 use crate::space::{PeriodicBox, Space};
-use crate::surroundings::Feature;
+use crate::surroundings::FeatureRef;
 use crate::vec3::Vec3;
 
 /// The widest lane.
 pub(super) const WIDEST: usize = 16;
+
+/// A fixed feature that bodies may touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part<'a, T> {
+    pub number: u32,
+    /// The feature that stands for the surface that it is a part of.
+    pub surface: u32,
+    pub feature: FeatureRef<'a, T>,
+}
 
 /// How contacts are found at the end of a step of flight.
 pub(super) trait Detection<T: Real>: Copy + Send + Sync {
@@ -34,7 +43,7 @@ pub(super) trait Detection<T: Real>: Copy + Send + Sync {
     fn surroundings<L: Lane<Scalar = T>>(
         self,
         state: &State<T>,
-        feature: (u32, &Feature<T>),
+        part: &Part<'_, T>,
         bodies: &[u32],
     ) -> (L::Mask, L);
 }
@@ -63,11 +72,12 @@ impl<T: Real> Detection<T> for AtEnd {
     fn surroundings<L: Lane<Scalar = T>>(
         self,
         state: &State<T>,
-        (_, feature): (u32, &Feature<T>),
+        part: &Part<'_, T>,
         bodies: &[u32],
     ) -> (L::Mask, L) {
         let center = gather::<L>(&state.position, bodies);
-        (feature.clearance(center, state.radius.gather(bodies)).gap.le(L::ZERO), L::ZERO)
+        let overlaps = part.feature.clearance(center, state.radius.gather(bodies)).gap.le(L::ZERO);
+        (part.feature.stops(overlaps, center), L::ZERO)
     }
 }
 
@@ -140,7 +150,7 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
     fn surroundings<L: Lane<Scalar = T>>(
         self,
         state: &State<T>,
-        (number, feature): (u32, &Feature<T>),
+        part: &Part<'_, T>,
         bodies: &[u32],
     ) -> (L::Mask, L) {
         let Stretch { until, .. } = self.stretch;
@@ -156,6 +166,7 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
             center = space.wrap(center);
             is_near = !space.is_inner(center, way);
         }
+        let feature = &part.feature;
         is_near = is_near | feature.clearance(center, state.radius.gather(bodies)).gap.le(way);
         if !is_near.any() {
             return (is_near, L::ZERO);
@@ -163,7 +174,7 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
         let near = is_near.bits();
         let ago = L::from_fn(|k| {
             let is_near = near >> k & 1 != 0;
-            let contact = is_near.then(|| self.contact_with(state, (number, feature), bodies[k]));
+            let contact = is_near.then(|| self.contact_with(state, part, bodies[k]));
             contact.flatten().unwrap_or(-T::ONE)
         });
         (ago.ge(L::splat(until)), ago)
@@ -182,18 +193,14 @@ impl<T: Real> WithinStep<'_, T> {
 
     /// How long before the end of the step the body in a slot touches a feature.
     #[inline(never)]
-    fn contact_with(
-        &self,
-        state: &State<T>,
-        (number, feature): (u32, &Feature<T>),
-        slot: u32,
-    ) -> Option<T> {
+    fn contact_with(&self, state: &State<T>, part: &Part<'_, T>, slot: u32) -> Option<T> {
         let Self { path, stretch: Stretch { until, .. }, .. } = *self;
         let radius = state.radius.of(slot as usize);
         let end = at(&state.position, slot as usize);
         let velocity = path.end_velocity(at(&state.velocity, slot as usize));
         let since = self.struck.since()[slot as usize];
-        let rank = Rank::of_surroundings(state.index[slot as usize], number);
+        let Part { surface, feature, .. } = part;
+        let rank = Rank::of_surroundings(state.index[slot as usize], *surface);
         let is_last = self.struck.is_last(slot, rank);
         let Some(space) = self.periodic else {
             return path.contact(feature, (end, velocity), radius, since, is_last);
@@ -207,10 +214,12 @@ impl<T: Real> WithinStep<'_, T> {
             if gap(until) > way {
                 return None;
             }
+            let start = path.center(end, velocity, since);
             // It has left one image only.
             let rounding = T::whole(64) * T::EPSILON * end.length();
-            let is_leaving =
-                is_last && gap(since).abs() <= rounding.greater(radius / T::whole(1024));
+            let is_leaving = is_last
+                && feature.clearance_of_surface(start, radius).gap.abs()
+                    <= rounding.greater(radius / T::whole(1024));
             path.contact(feature, (end, velocity), radius, since, is_leaving)
         };
         space.images().into_iter().filter_map(through).reduce(Lane::greater)
@@ -267,17 +276,17 @@ fn sweep_pairs<L, T, D, R, S>(
 pub(super) fn touching_surroundings<L: Lane<Scalar = T>, T: Real>(
     state: &State<T>,
     detection: impl Detection<T>,
-    feature: (u32, &Feature<T>),
+    part: &Part<'_, T>,
     bodies: &[u32],
     found: &mut Vec<Contact<T>>,
 ) {
     let (whole, tail) = bodies.split_at(bodies.len() - bodies.len() % L::WIDTH);
     // Of many parts most have few bodies.
     if !whole.is_empty() {
-        sweep_surroundings::<L, _>(state, detection, feature, whole, found);
+        sweep_surroundings::<L, _>(state, detection, part, whole, found);
     }
     if !tail.is_empty() {
-        sweep_surroundings::<T, _>(state, detection, feature, tail, found);
+        sweep_surroundings::<T, _>(state, detection, part, tail, found);
     }
 }
 
@@ -287,14 +296,15 @@ pub(super) fn touching_surroundings<L: Lane<Scalar = T>, T: Real>(
 fn sweep_surroundings<L: Lane<Scalar = T>, T: Real>(
     state: &State<T>,
     detection: impl Detection<T>,
-    (number, feature): (u32, &Feature<T>),
+    part: &Part<'_, T>,
     bodies: &[u32],
     found: &mut Vec<Contact<T>>,
 ) {
     for bodies in bodies.chunks_exact(L::WIDTH) {
-        let (touching, ago) = detection.surroundings::<L>(state, (number, feature), bodies);
+        let (touching, ago) = detection.surroundings::<L>(state, part, bodies);
         push(touching, ago, found, |k| {
-            (bodies[k], number, Rank::of_surroundings(state.index[bodies[k] as usize], number))
+            let rank = Rank::of_surroundings(state.index[bodies[k] as usize], part.surface);
+            (bodies[k], part.number, rank)
         });
     }
 }

@@ -4,7 +4,7 @@ use crate::lane::Lane;
 use crate::motion::Integrator;
 use crate::real::Real;
 use crate::scene::Impact;
-use crate::surroundings::Feature;
+use crate::surroundings::FeatureRef;
 use crate::vec3::Vec3;
 
 /// How the integrator's path runs back from the end of a step:
@@ -76,10 +76,10 @@ impl<T: Real> Path<T> {
     ///
     /// What touches the feature at the start of its path and approaches touches
     /// it then, whatever rounding says. `is_leaving`: as
-    /// [`Feature::contact_time`] has it.
+    /// [`Feature::contact_time`](crate::surroundings::Feature::contact_time) has it.
     pub fn contact(
         &self,
-        feature: &Feature<T>,
+        feature: &FeatureRef<'_, T>,
         (end, end_velocity): (Vec3<T>, Vec3<T>),
         radius: T,
         since: T,

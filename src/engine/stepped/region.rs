@@ -70,7 +70,7 @@ impl<T: Real> Region<T> {
         let (at_end, within) = if setting.is_within_step() { (0, slots) } else { (slots, 0) };
         Self {
             nearby: Nearby {
-                broadphase: BroadPhase::new(&state.radius, len, setting.features.as_slice()),
+                broadphase: BroadPhase::new(&state.radius, len, &setting.features),
                 candidates: Candidates::default(),
                 neighbourhoods: Neighbourhoods::default(),
                 skin: T::ZERO,

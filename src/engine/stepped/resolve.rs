@@ -97,7 +97,7 @@ fn impulses_by<L: Lane<Scalar = T>, T: Real, W: Laws<T>>(
     if first.rank.is_pair() {
         impacts.pairs::<L>(state, contacts, outcomes);
     } else {
-        let feature = &setting.features[first.b as usize];
-        impacts.surroundings::<L>(state, &setting.path, feature, contacts, outcomes);
+        let feature = setting.features.at(first.b);
+        impacts.surroundings::<L>(state, &setting.path, &feature, contacts, outcomes);
     }
 }

@@ -8,7 +8,7 @@ use crate::motion::Integrator;
 use crate::real::Real;
 use crate::scene::{EngineKind, Impact, Scene};
 use crate::space::PeriodicBox;
-use crate::surroundings::{Feature, features_of};
+use crate::surroundings::Features;
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
@@ -28,9 +28,7 @@ pub(super) struct Setting<T: Real> {
     pub periodic: Option<PeriodicBox<T>>,
     /// The shape of the paths within a step.
     pub path: Path<T>,
-    pub features: Vec<Feature<T>>,
-    /// The part of the surroundings that each feature belongs to.
-    pub parts: Vec<u32>,
+    pub features: Features<T>,
     /// Which of them are counted apart.
     pub counted: Counted,
     pub workers: Workers,
@@ -47,7 +45,7 @@ impl<T: Real> Setting<T> {
         let workers = Workers::new(execution.threads)?;
         let plan = Plan::new(scene, EngineKind::Stepped, execution, workers.threads());
         let met: &[_] = if plan.features > 0 { &scene.surroundings } else { &[] };
-        let (features, parts) = features_of(met);
+        let features = Features::new(met);
         let counted = Counted::of(scene);
         Ok(Self {
             dt,
@@ -58,7 +56,6 @@ impl<T: Real> Setting<T> {
             periodic: scene.periodic,
             path: Path::new(plan.integrator, plan.impact, scene.gravity, dt),
             features,
-            parts,
             counted,
             workers,
             plan,
@@ -68,7 +65,7 @@ impl<T: Real> Setting<T> {
     /// The counter of a feature's part, if it has one.
     #[inline(always)]
     pub fn counter(&self, feature: u32) -> Option<Counter> {
-        self.counted.counter(self.parts[feature as usize])
+        self.counted.counter(self.features.shape_of(feature))
     }
 
     /// Whether there is anything to collide with.

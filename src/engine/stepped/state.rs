@@ -11,7 +11,7 @@ use crate::real::Real;
 use crate::scene::{Impact, Summation};
 use crate::space::PeriodicBox;
 use crate::space::broadphase::Surveyed;
-use crate::surroundings::Feature;
+use crate::surroundings::Features;
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
@@ -151,9 +151,9 @@ impl<T: Real> State<T> {
     pub fn surveyed<'a>(
         &'a self,
         periodic: Option<PeriodicBox<T>>,
-        features: &'a [Feature<T>],
+        features: &'a Features<T>,
         pairs: bool,
-    ) -> Surveyed<'a, T, [Feature<T>]> {
+    ) -> Surveyed<'a, T, Features<T>> {
         Surveyed {
             position: &self.position,
             radius: &self.radius,

@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
-use super::{Number, Pair, Vector};
-use crate::surroundings::{Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
+use super::{Number, Numbers, Pair, Vector, Whole};
+use crate::surroundings::{FilePath, Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
 
 /// An entry.
 #[derive(Clone, Debug, Default)]
@@ -24,7 +24,12 @@ pub(in crate::scene) struct RawSurroundings {
 impl RawSurroundings {
     /// Moves every point away from the origin by a factor.
     pub(in crate::scene) fn dilate(&mut self, factor: f64) {
-        self.values.dilate(factor);
+        if self.values.files().next().is_some() {
+            let Number(scale) = self.scale.unwrap_or(Number(1.0));
+            self.scale = Some(Number(scale * factor));
+        } else {
+            self.values.dilate(factor);
+        }
         let center = self.rotation.as_mut().and_then(|rotation| rotation.center.as_mut());
         for Vector(point) in self.translation.as_mut().into_iter().chain(center) {
             *point = point.map(|component| component * factor);
@@ -186,6 +191,16 @@ fn value<'de, A: MapAccess<'de>>(key: Key, map: &mut A) -> Result<Value, A::Erro
             Value::Number(number)
         }
         Meaning::Flag => Value::Flag(map.next_value()?),
+        Meaning::Triples => Value::Triples(map.next_value()?),
+        Meaning::Numbers => {
+            let Numbers(numbers) = map.next_value()?;
+            Value::Numbers(numbers)
+        }
+        Meaning::Count => {
+            let Whole(count) = map.next_value()?;
+            Value::Count(count)
+        }
+        Meaning::Path => Value::Path(FilePath::new(map.next_value()?)),
     })
 }
 

@@ -85,14 +85,18 @@ pub(super) struct PartSearch<'a, T: Real, P: ?Sized> {
 impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
     /// Finds the bodies of a chunk that are near fixed parts.
     pub fn search<L: Lane<Scalar = T>>(&self, bodies: Range<usize>, chunk: &mut Chunk) {
-        if self.tree.len() <= FEW_PARTS {
-            for part in 0..self.parts.count() as u32 {
+        let are_few = self.tree.len() <= FEW_PARTS;
+        if are_few {
+            for part in 0..self.parts.alone() as u32 {
                 self.sweep::<L>(part, &bodies, chunk);
             }
-            return;
+        } else {
+            for &part in self.tree.endless() {
+                self.sweep::<L>(part, &bodies, chunk);
+            }
         }
-        for &part in self.tree.endless() {
-            self.sweep::<L>(part, &bodies, chunk);
+        if are_few && self.parts.alone() == self.parts.count() {
+            return;
         }
         let mut found = Vec::new();
         let mut rest = bodies;
@@ -101,11 +105,15 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             rest.start = group.end;
             for (number, &image) in (0..).zip(self.images) {
                 let bounds = bounds.map(|corner| corner + image);
-                self.tree.for_each_box(bounds, |bounds, part| {
+                let mut keep = |bounds, part| {
                     self.near_box::<L>(&group, image, bounds, |body| {
                         found.push((part, body, number));
                     });
-                });
+                };
+                if !are_few {
+                    self.tree.for_each_box(bounds, &mut keep);
+                }
+                self.parts.for_each_near(bounds, &mut keep);
             }
         }
         // Part by part, as they stand in memory.
