@@ -29,7 +29,7 @@ pub(super) fn shape(
         let problem = Problem::conflict(format!("shape = \"{name}\""), reason);
         return Err(origin.error_in(&entry, (key.name, problem)));
     }
-    read(&raw.values.from_folder(folder))
+    read(&raw.values.in_folder(folder))
         .and_then(|shape| placed(shape, raw))
         .map_err(|mistake| origin.error_in(&entry, mistake))
 }

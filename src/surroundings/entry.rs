@@ -233,7 +233,7 @@ impl ShapeEntry {
 
     /// The same with all paths from a folder.
     #[must_use]
-    pub(crate) fn from_folder(&self, folder: &Path) -> Self {
+    pub(crate) fn in_folder(&self, folder: &Path) -> Self {
         let mut entry = self.clone();
         for (_, value) in &mut entry.values {
             if let Value::Path(path) = value {

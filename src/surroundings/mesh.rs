@@ -27,6 +27,7 @@ use crate::vec3::Vec3;
 
 pub use error::{FilePlace, MeshError};
 use net::Net;
+use obj::Obj;
 pub use report::MeshReport;
 use seams::Seams;
 use stl::Stl;
@@ -149,7 +150,7 @@ impl<T: Real> Mesh<T> {
     /// If it is anything else, a number is of no vertex, or a coordinate is not finite: the
     /// message names the line.
     pub fn from_obj(bytes: &[u8]) -> Result<Self, MeshError> {
-        let (vertices, triangles) = obj::read(bytes)?;
+        let Obj { vertices, triangles } = obj::read(bytes)?;
         Self::of(&cast(&vertices), &triangles, Source::Text)
     }
 

@@ -27,7 +27,7 @@ fn balls<T: Compiled>(mesh: &Mesh<T>) -> Vec<Sphere> {
     let mut balls = Vec::new();
     for k in 0..60 {
         let speed = [3.0, 0.5, 8.0][k % 3];
-        let angle = 3.14 * random.unit::<f64>();
+        let angle = 3.0 * random.unit::<f64>();
         let height = [0.0, 1e-6, 0.01, 0.5][k / 3 % 4];
         let mut place = [20.0 * random.unit::<f64>(), 20.0 * random.unit::<f64>(), 0.5 + height];
         if k % 5 == 0 {
@@ -91,8 +91,8 @@ fn moves_as_on_a_plane<T: Compiled>() {
     ] {
         for surface in [Surface::Smooth, Surface::Rough] {
             // One that starts at rest on the floor falls onto it without end.
-            let some =
-                |k: usize| engine == EngineKind::Stepped || k / 3 % 4 != 0 || k / 12 % 4 != 2;
+            let is_at_rest = |k: usize| [k / 3 % 4, k / 12 % 4] == [0, 2];
+            let some = |k: usize| engine == EngineKind::Stepped || !is_at_rest(k);
             let balls: Vec<_> = balls
                 .iter()
                 .enumerate()

@@ -30,10 +30,16 @@ const PASSED_OVER: [&str; 16] = [
     "trace_obj",
 ];
 
-/// Vertices, and triangles by their numbers from 0.
-pub(super) fn read(bytes: &[u8]) -> Result<(Vec<[f64; 3]>, Vec<[u32; 3]>), MeshError> {
-    let mut vertices: Vec<[f64; 3]> = Vec::new();
-    let mut triangles = Vec::new();
+/// What a file has: vertices, and triangles by their numbers from 0.
+#[derive(Default)]
+pub(super) struct Obj {
+    pub(super) vertices: Vec<[f64; 3]>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// Reads a file.
+pub(super) fn read(bytes: &[u8]) -> Result<Obj, MeshError> {
+    let Obj { mut vertices, mut triangles } = Obj::default();
     let mut last = 1;
     for (line, words) in lines(bytes) {
         last = line;
@@ -65,7 +71,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Vec<[f64; 3]>, Vec<[u32; 3]>), MeshE
     if triangles.is_empty() {
         return Err(MeshError::at_line(last, "the file ends here, and has no faces"));
     }
-    Ok((vertices, triangles))
+    Ok(Obj { vertices, triangles })
 }
 
 /// The lines of a text with their numbers, as words: comments left out, and lines that end in

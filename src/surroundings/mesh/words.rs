@@ -7,24 +7,24 @@ pub(super) struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
     /// The line that the place is on.
-    line: usize,
+    here: usize,
     /// The line of the last word.
-    last: usize,
+    line: usize,
 }
 
 impl<'a> Words<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self { bytes, at: 0, line: 1, last: 1 }
+        Self { bytes, at: 0, here: 1, line: 1 }
     }
 
     /// The line of the last word, from 1.
     pub(super) fn line(&self) -> usize {
-        self.last
+        self.line
     }
 
     fn skip_space(&mut self) {
         while let Some(byte) = self.bytes.get(self.at).filter(|byte| byte.is_ascii_whitespace()) {
-            self.line += usize::from(*byte == b'\n');
+            self.here += usize::from(*byte == b'\n');
             self.at += 1;
         }
     }
@@ -44,8 +44,8 @@ impl<'a> Words<'a> {
             return None;
         }
         self.at += end;
-        self.last = self.line;
-        Some((self.line, &rest[..end]))
+        self.line = self.here;
+        Some((self.here, &rest[..end]))
     }
 
     /// Passes over the rest of a line.
@@ -73,7 +73,7 @@ impl<'a> Words<'a> {
     }
 
     fn ends_before(&self, wanted: &str) -> MeshError {
-        MeshError::at_line(self.last, format!("the file ends here, where {wanted} belongs"))
+        MeshError::at_line(self.line, format!("the file ends here, where {wanted} belongs"))
     }
 }
 
