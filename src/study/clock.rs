@@ -94,7 +94,8 @@ impl Timing {
     #[must_use]
     pub fn is_uncertain(&self) -> bool {
         // A time of zero, below the grain of the clock, says nothing either.
-        !(self.uncertainty() <= UNCERTAIN)
+        let uncertainty = self.uncertainty();
+        uncertainty > UNCERTAIN || uncertainty.is_nan()
     }
 
     /// Samples that something else has slowed down: beyond the upper quartile by more than
