@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use carom::SceneFile;
-use carom::surroundings::{Mesh, MeshError};
+use carom::surroundings::{Mesh, MeshError, Shape};
 
 use crate::{Net, grid, icosphere};
 
@@ -84,6 +84,10 @@ fn good_files_have_the_right_geometry() {
             [several, flipped, degenerate, components],
             "{name}: {report:?}"
         );
+        let shape = Shape::from(mesh);
+        if volume == Some(1.0) {
+            assert!(shape.area().is_some_and(|area| (area - 12.0).abs() < 1e-9), "{name}");
+        }
         if let Some(volume) = volume {
             assert!(report.is_closed(), "{name}");
             assert!((report.volume - volume).abs() < 1e-12, "{name}: {}", report.volume);
