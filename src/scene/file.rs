@@ -316,7 +316,8 @@ impl SceneFile {
     /// use carom::SceneFile;
     ///
     /// let text = "[[surroundings]]\nshape = \"plane\"\nname = \"floor\"";
-    /// let names: Vec<_> = SceneFile::parse("named", text)?.part_names().collect();
+    /// let file = SceneFile::parse("named", text)?;
+    /// let names: Vec<_> = file.part_names().collect();
     /// assert_eq!(names, [Some("floor")]);
     /// # Ok::<(), carom::SceneError>(())
     /// ```

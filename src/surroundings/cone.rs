@@ -23,7 +23,7 @@ use crate::vec3::Vec3;
 /// use carom::vec3::Vec3;
 ///
 /// let cone = Cone::solid([0.0; 3], [0.0, 0.0, 1.0], 4.0, [3.0, 0.0]);
-/// let [cone] = Shape::from(cone).features()[..] else { return };
+/// let [cone] = &Shape::from(cone).features()[..] else { return };
 /// assert_eq!(cone.clearance(Vec3::new(0.0, 0.0, 6.0), 0.5).gap, 1.5);
 /// assert_eq!(cone.clearance(Vec3::new(3.0, 0.0, -4.0), 0.5).gap, 3.5);
 /// ```
@@ -97,7 +97,7 @@ impl<T: Real> Cone<T> {
     ///
     /// let cone = Cone::endless_container([0.0; 3], [0.0, 0.0, 1.0], 0.75);
     /// let [wall] = &Shape::from(cone).features()[..] else { return };
-    /// assert!((wall.clearance(Vec3::new(0.0, 0.0, 5.0), 0.5).gap - 2.5).abs() < 1e-15);
+    /// assert!((wall.clearance(Vec3::new(0.0, 0.0, 5.0), 0.5).gap - 2.5_f64).abs() < 1e-15);
     /// ```
     #[must_use]
     pub fn endless_container(apex: [T; 3], axis: [T; 3], slope: T) -> Self {

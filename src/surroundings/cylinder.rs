@@ -20,7 +20,7 @@ use crate::vec3::Vec3;
 /// use carom::vec3::Vec3;
 ///
 /// let drum = Cylinder::solid([0.0; 3], [0.0, 0.0, 1.0], 2.0, Some(2.0));
-/// let [drum] = Shape::from(drum).features()[..] else { return };
+/// let [drum] = &Shape::from(drum).features()[..] else { return };
 /// assert_eq!(drum.clearance(Vec3::new(5.0, 5.0, 0.0), 0.5).gap, 50.0_f64.sqrt() - 2.5);
 /// assert_eq!(drum.clearance(Vec3::new(5.0, 0.0, 5.0), 0.5).gap, 4.5);
 /// ```

@@ -21,7 +21,7 @@ use crate::vec3::Vec3;
 /// use carom::vec3::Vec3;
 ///
 /// let ring = Disc::new([0.0; 3], [0.0, 0.0, 1.0], 3.0, 1.0);
-/// let [ring] = Shape::from(ring).features()[..] else { return };
+/// let [ring] = &Shape::from(ring).features()[..] else { return };
 /// assert_eq!(ring.clearance(Vec3::new(2.0, 0.0, -1.0), 0.5).gap, 0.5);
 /// assert_eq!(ring.clearance(Vec3::new(0.25, 0.0, 0.0), 0.5).gap, 0.25);
 /// ```

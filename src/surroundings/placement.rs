@@ -105,9 +105,13 @@ impl<T: Real> Shape<T> {
     ///
     /// ```
     /// use carom::surroundings::{FixedSphere, Shape};
+    /// use carom::vec3::Vec3;
+    ///
+    /// let quarter = core::f64::consts::FRAC_PI_2;
     /// let ball = Shape::from(FixedSphere::solid([3.0, 0.0, 0.0], 0.5));
-    /// let other = ball.turned_about([2.0, 0.0, 0.0], [0.0, 0.0, 1.0], 0.25);
-    /// assert!((other.turned_about([2.0, 0.0, 0.0], [0.0, 0.0, -1.0], 0.25) == ball));
+    /// let ball = ball.turned_about([2.0, 0.0, 0.0], [0.0, 0.0, 1.0], quarter);
+    /// let [ball] = &ball.features()[..] else { return };
+    /// assert!((ball.clearance(Vec3::new(2.0, 3.0, 0.0), 0.5).gap - 1.0_f64).abs() < 1e-15);
     /// ```
     #[must_use]
     pub fn turned_about(&self, center: [T; 3], axis: [T; 3], angle: T) -> Self {

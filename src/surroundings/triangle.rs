@@ -17,7 +17,7 @@ use crate::vec3::Vec3;
 /// use carom::vec3::Vec3;
 ///
 /// let triangle = Triangle::new([0.0; 3], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0]);
-/// let [facet] = Shape::from(triangle).features()[..] else { return };
+/// let [facet] = &Shape::from(triangle).features()[..] else { return };
 /// assert_eq!(facet.clearance(Vec3::new(1.0, 1.0, -2.0), 0.5).gap, 1.5);
 /// assert_eq!(facet.clearance(Vec3::new(-3.0, -4.0, 0.0), 0.5).gap, 4.5);
 /// ```

@@ -22,7 +22,7 @@ use crate::vec3::Vec3;
 /// use carom::vec3::Vec3;
 ///
 /// let tube = Tube::new([0.0; 3], [0.0, 0.0, 1.0], 4.0, [3.0, 3.0]);
-/// let [tube] = Shape::from(tube).features()[..] else { return };
+/// let [tube] = &Shape::from(tube).features()[..] else { return };
 /// assert_eq!(tube.clearance(Vec3::new(1.0, 0.0, 2.0), 0.5).gap, 1.5);
 /// assert_eq!(tube.clearance(Vec3::new(5.0, 0.0, 2.0), 0.5).gap, 1.5);
 /// assert_eq!(tube.clearance(Vec3::new(0.0, 0.0, 8.0), 0.5).gap, 4.5);

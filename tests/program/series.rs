@@ -78,7 +78,8 @@ fn the_walls_force_is_what_changes_the_momentum() {
 #[test]
 fn parts_with_names_have_columns_and_lines_of_their_own() {
     let folder = Folder::with(BOX);
-    let run = "run scene.toml --engine event-driven --set surroundings[0].name=wall";
+    let run = "run scene.toml --engine event-driven --set surroundings[0].name=wall \
+               --set surface.kind=smooth";
     let series = "--series series.csv --series-every 0.25";
     let summary = folder.says(&format!("{run} --json {series}")).summary();
     let all = |name: &str| column(&folder, name);
