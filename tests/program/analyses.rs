@@ -109,7 +109,10 @@ fn frames_in_open_space_have_no_box() {
     let message = folder.says("analyse run.xyz --kind bond-order").fails_with(2);
     assert!(message.contains("--kind is in open space"), "{message}");
     let message = folder.says("analyse run.xyz --species 3").fails_with(2);
-    assert!(message.contains("--species is [3]; it is one or two of the species 1 to 2"), "{message}");
+    assert!(
+        message.contains("--species is [3]; it is one or two of the species 1 to 2"),
+        "{message}"
+    );
 }
 
 #[test]
