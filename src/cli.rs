@@ -4,6 +4,7 @@ mod analyse;
 mod analyses;
 mod arguments;
 mod asked;
+mod batch;
 mod closed_output;
 mod conclusion;
 mod events;
@@ -28,6 +29,7 @@ mod series;
 mod study;
 mod summary;
 mod sweep;
+mod variation;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -50,6 +52,7 @@ pub fn main() -> ExitCode {
             Some(Command::Analyse(arguments)) => analyse::analyse(&arguments),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
+            Some(Command::Batch(arguments)) => batch::batch(&arguments),
             Some(Command::Study { study }) => study.run(),
         },
         Err(answer) => return answered(&answer),

@@ -1,6 +1,7 @@
 //! Engines: what moves a scene through time.
 
 mod account;
+mod batch;
 mod change;
 mod compiled;
 mod event;
@@ -22,6 +23,7 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 pub use account::Effort;
+pub use batch::{Batch, BatchError, Fault, PackView};
 pub use change::{Change, ChangeError};
 pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};

@@ -122,7 +122,9 @@ pub use numbers::{compensated, lane, mat3, real, trigonometry, vec3};
 // What a first program needs.
 pub use bodies::Bodies;
 pub use contact::Surface;
-pub use engine::{EngineError, Event, EventDriven, Execution, Lanes, Order, Partner, Stepped};
+pub use engine::{
+    Batch, EngineError, Event, EventDriven, Execution, Lanes, Order, Partner, Stepped,
+};
 pub use motion::Integrator;
 #[cfg(feature = "files")]
 pub use observe::state_hash;

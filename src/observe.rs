@@ -27,6 +27,7 @@ mod finite;
 mod gas;
 mod images;
 mod momentum;
+mod of_batch;
 mod of_world;
 mod sample;
 mod species;

@@ -5,6 +5,8 @@
 //! trajectory in the formats of other programs ([`FrameWriter`]), and a [`WholeFile`] to
 //! write into, which has its name only once it is whole.
 
+#[cfg(feature = "study")]
+mod arrays;
 mod events;
 mod findings;
 #[cfg(feature = "study")]
@@ -19,6 +21,8 @@ mod state;
 #[cfg(feature = "study")]
 mod whole_file;
 
+#[cfg(feature = "study")]
+pub use arrays::{Array, write_arrays};
 #[cfg(feature = "study")]
 pub use events::EventArrays;
 pub use events::{EVENT_COLUMNS, EventFilter, EventWriter};

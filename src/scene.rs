@@ -53,6 +53,7 @@ mod origin;
 mod outputs;
 #[cfg(feature = "files")]
 mod pieces;
+mod quick;
 mod random;
 #[cfg(feature = "files")]
 mod raw;
@@ -74,6 +75,8 @@ pub use error::{Place, Problem, SceneError};
 pub use file::SceneFile;
 #[cfg(feature = "files")]
 pub use outputs::AskedAnalysis;
+pub(crate) use quick::QuickCheck;
+pub use random::Random;
 #[cfg(feature = "files")]
 pub use settings::Written;
 pub use settings::{

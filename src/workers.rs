@@ -44,6 +44,15 @@ impl Workers {
         }
     }
 
+    /// Does the work of each item, side by side, of many that differ in length. It allocates
+    /// nothing, and is compiled for each kind of work.
+    pub fn spread<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
+        match &self.pool {
+            Some(pool) if items.len() > 1 => pool.install(|| items.par_iter_mut().for_each(work)),
+            _ => items.iter_mut().for_each(work),
+        }
+    }
+
     /// Does the work of each item, side by side.
     pub fn each<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
         match &self.pool {

@@ -99,6 +99,7 @@ const SCENE: [&str; 27] = [
     "generate",
     "check_bodies",
     "checked",
+    "quick",
     "builder",
     "builtin",
     "raw",

@@ -13,6 +13,7 @@ use clap::{Args, Parser, Subcommand};
 use super::analyse::KINDS;
 use super::events::bodies;
 use super::study::{Study, StudyFolder};
+use super::variation::MOST_RUNS;
 
 /// Simulates rigid spheres in motion: free flight and elastic collisions,
 /// smooth and rough, with the same bits on every path.
@@ -31,6 +32,7 @@ Examples:
   carom analyse gas.npz                 what recorded frames amount to
   carom plot gas.csv                    draw a time series of a run
   carom sweep gas.toml --vary spheres[0].radius=0.1:0.3:5   a run for each value
+  carom batch gas.toml --count 10000 --output gas.csv   a run for each of many seeds
   carom study error gas.toml            what each method costs, and its error
 
 Without a command, `carom` does what `carom run` does."
@@ -127,6 +129,28 @@ Writes runs.csv, means.csv, report.txt and scene.toml into its folder.
 Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 if a run fails or a
 file cannot be written.")]
     Sweep(SweepArguments),
+    /// Run a scene many times at once, each with a seed and values of its own.
+    ///
+    /// Each scene is one row of a table, as `carom run` with its seed and values gives it, bit
+    /// by bit. Small scenes of the stepped engine with impacts at the end of a step take one
+    /// lane each; others run one by one on all threads (`carom explain` says which). An
+    /// interrupted batch goes on where it was when it is started again.
+    #[command(after_help = "\
+Examples:
+  carom batch break.toml --count 100000 --output breaks.csv
+                                        nothing but seeds
+  carom batch break.toml --count 1000 --vary 'spheres[0].velocity=[1,0,0],[2,0,0]' --output b.csv
+                                        two values in turn
+  carom batch break.toml --count 1000 --vary 'spheres[0].radius=uniform(0.4,0.5)' --output b.csv
+                                        a radius drawn for each scene, by its seed
+  carom batch break.toml --count 1000 --observe temperature,x[0],y[0] --output b.npz
+                                        figures of the end, as arrays of NumPy
+
+Rows have scene, seed, what is varied, state_hash, collisions, pairs, surroundings,
+energy_change, what is observed, and failure: why a scene came to no end.
+Exit status: 0 done, 2 a mistake in the arguments or the first scene, 1 if a scene fails or
+the file cannot be written.")]
+    Batch(BatchArguments),
     /// Measure what methods cost and how far off they are.
     #[command(after_help = "\
 Examples:
@@ -328,6 +352,38 @@ pub struct AnalyseArguments {
     /// Draw each file too, as NAME.svg
     #[arg(long)]
     pub plot: bool,
+}
+
+/// What `carom batch` takes.
+#[derive(Args, Debug)]
+pub struct BatchArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// How many scenes: scene k, from 0, has the scene file's seed plus k
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=MOST_RUNS))]
+    pub count: u64,
+
+    /// A key of the scene file and what scenes have there: KEY=a,b,c or KEY=from:to:n in
+    /// turn, each value with each of the other keys; or KEY=uniform(a,b) or
+    /// KEY=normal(mean,sd), drawn for each scene by its seed; can be given many times
+    #[arg(long, value_name = "KEY=VALUES")]
+    pub vary: Vec<String>,
+
+    /// Figures of the end that rows have besides: time, steps, energy, translational,
+    /// rotational, potential, temperature, spin_temperature; of body 3 x[3], y[3], z[3],
+    /// vx[3], …, wx[3], …
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub observe: Vec<String>,
+
+    /// The table: comma-separated values, or arrays of NumPy if it ends in .npz
+    #[arg(long, value_name = "FILE")]
+    pub output: PathBuf,
+
+    /// Forget the rows of a batch that was interrupted, and begin again
+    #[arg(long)]
+    pub restart: bool,
 }
 
 /// What `carom plot` takes.

@@ -22,6 +22,14 @@ pub enum ChangeError {
         /// How many bodies there are.
         bodies: usize,
     },
+    /// There is no such scene in a batch.
+    #[error("there is no scene {scene}: the batch has {scenes}, counted from 0")]
+    NoScene {
+        /// The number that was given.
+        scene: usize,
+        /// How many scenes there are.
+        scenes: usize,
+    },
     /// What the change makes is no scene: a body in another one, a mass of 0.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -2,7 +2,7 @@
 
 use super::frame::{Frame, Framed};
 use super::interface::{EventEngine, StepEngine};
-use super::{EngineError, Execution, event_driven, stepped};
+use super::{EngineError, Execution, batch, event_driven, stepped};
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
 use crate::real::Real;
@@ -31,6 +31,7 @@ pub trait Compiled: Real + sealed::Engines {}
 
 pub(super) mod sealed {
     use super::{EngineError, EventEngine, Execution, Real, Scene, StepEngine};
+    use crate::engine::batch::{Events, Pack, Setting};
 
     /// What makes the engines of a precision; not generic, so that it is compiled
     /// in this crate.
@@ -44,6 +45,13 @@ pub(super) mod sealed {
             scene: Scene<Self>,
             execution: Execution,
         ) -> Result<Box<dyn StepEngine<Self>>, EngineError>;
+
+        fn advance_pack(
+            setting: &Setting<Self>,
+            pack: &mut Pack<Self>,
+            steps: u64,
+            events: Option<&mut Events<Self>>,
+        );
     }
 }
 
@@ -72,6 +80,15 @@ macro_rules! compile {
                     None => Box::new(driver(scene)?),
                     Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
                 })
+            }
+
+            fn advance_pack(
+                setting: &batch::Setting<Self>,
+                pack: &mut batch::Pack<Self>,
+                steps: u64,
+                events: Option<&mut batch::Events<Self>>,
+            ) {
+                batch::advance(setting, pack, steps, events);
             }
         }
     )*};

@@ -90,3 +90,41 @@ pub struct Event<T: Real> {
     /// Angular velocity of body `a` just after, rad per time.
     pub spin: Vec3<T>,
 }
+
+/// A collision as an engine knows it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Struck<T> {
+    /// Index of the first body.
+    pub a: u32,
+    /// Its centre.
+    pub center: Vec3<T>,
+    /// From the second body's centre, or the point of contact with what is fixed, to it.
+    pub offset: Vec3<T>,
+    /// The part of the offset that is its arm; `None` with what is fixed: all of it.
+    pub share: Option<T>,
+    /// The impulses on it.
+    pub normal: Vec3<T>,
+    pub tangential: Vec3<T>,
+    /// Its motion just after.
+    pub velocity: Vec3<T>,
+    pub spin: Vec3<T>,
+}
+
+impl<T: Real> Struck<T> {
+    /// As it is reported.
+    pub fn event(&self, time: f64, partner: Partner<T>) -> Event<T> {
+        let arm = self.share.map_or(self.offset, |share| self.offset * share);
+        let length = self.offset.length();
+        Event {
+            time,
+            a: self.a,
+            partner,
+            point: self.center - arm,
+            normal: self.offset * (T::ONE / length),
+            normal_impulse: self.normal.length(),
+            tangential_impulse: self.tangential,
+            velocity: self.velocity,
+            spin: self.spin,
+        }
+    }
+}

@@ -86,6 +86,8 @@ pub struct Plan {
     pub has_pairs: bool,
     /// How many fixed features bodies meet.
     pub features: usize,
+    /// Whether triangles of meshes are among them.
+    pub has_meshes: bool,
     /// Which contact law collisions follow.
     pub surface: Surface,
     /// Whether collisions read and change spins.
@@ -147,23 +149,34 @@ impl Plan {
             gather_lanes,
             has_screening,
             order: Order::Strict,
-            has_field: scene.gravity.to_array().iter().any(|&a| a != T::ZERO),
+            has_field: has_field(scene),
             integrator: scene.stepped.integrator,
-            summation: match scene.stepped.summation {
-                Summation::Auto if has_short_steps(scene) => Summation::Compensated,
-                Summation::Auto => Summation::Plain,
-                summation => summation,
-            },
+            summation: summation(scene),
             impact: scene.stepped.impact,
             is_periodic: scene.periodic.is_some(),
             has_pairs: scene.encounters == Encounters::All && bodies.len() > 1,
             features,
+            has_meshes: features > 0 && scene.surroundings.iter().any(|s| s.mesh().is_some()),
             surface: scene.surface,
             changes_spins,
             has_radii: matches!(bodies.radius, PerBody::Each(_)),
             has_masses: matches!(bodies.mass, PerBody::Each(_)),
             turning,
         }
+    }
+}
+
+/// Whether velocities change in flight.
+pub(super) fn has_field<T: Real>(scene: &Scene<T>) -> bool {
+    scene.gravity.to_array().iter().any(|&a| a != T::ZERO)
+}
+
+/// How the stepped engine adds up positions and velocities: never [`Summation::Auto`].
+pub(super) fn summation<T: Real>(scene: &Scene<T>) -> Summation {
+    match scene.stepped.summation {
+        Summation::Auto if has_short_steps(scene) => Summation::Compensated,
+        Summation::Auto => Summation::Plain,
+        summation => summation,
     }
 }
 

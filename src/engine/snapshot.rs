@@ -136,7 +136,7 @@ pub(super) enum State {
 
 /// Numbers of one precision, bit by bit.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) enum Reals {
+pub enum Reals {
     Single(Vec<f32>),
     Double(Vec<f64>),
     /// A number and what it leaves out.

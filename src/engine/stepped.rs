@@ -42,6 +42,8 @@ use crate::scene::{MOST_STEPS, Scene};
 use crate::vec3::Vec3;
 
 pub(super) use driver::Driver;
+pub(super) use lanes::in_lanes;
+pub(super) use orientations::Orientations;
 #[cfg(feature = "files")]
 pub(super) use snapshot::StepState;
 

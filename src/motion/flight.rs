@@ -171,21 +171,47 @@ fn compensated_arrays<L: Lane, I: FlightStep, S: Wrap<L::Scalar>>(
     };
     let mut fastest = L::ZERO;
     for k in 0..positions[0].len() {
-        let before = at(&velocities, k);
-        let way = I::mean_velocity(before, acceleration, dt) * dt;
-        let (position, rest) = compensated_sum(at(&positions, k), at(&low, k), way);
-        put(&mut positions, k, space.wrap(position));
-        put(&mut low, k, rest);
-        let mut velocity = before;
+        let kick = if I::CHANGES_VELOCITY { at(&kicks, k) } else { Vec3::ZERO };
+        let (places, speeds) = ([at(&positions, k), at(&low, k)], [at(&velocities, k), kick]);
+        let [places, speeds] = compensated_step::<L, I>(places, speeds, acceleration, dt);
+        put(&mut positions, k, space.wrap(places[0]));
+        put(&mut low, k, places[1]);
         if I::CHANGES_VELOCITY {
-            let rest;
-            (velocity, rest) = compensated_sum(before, at(&kicks, k), acceleration * dt);
-            put(&mut velocities, k, velocity);
-            put(&mut kicks, k, rest);
+            put(&mut velocities, k, speeds[0]);
+            put(&mut kicks, k, speeds[1]);
         }
-        fastest = velocity.length_squared().greater(fastest);
+        fastest = speeds[0].length_squared().greater(fastest);
     }
     greatest(fastest)
+}
+
+/// A step of flight by compensated sums: the position and the velocity after it, each with
+/// what its rounding leaves out.
+///
+/// ```
+/// use carom::Vec3;
+/// use carom::motion::flight::compensated_step;
+/// use carom::motion::integrator::Coasting;
+///
+/// let (far, slow) = (Vec3::new(1e20, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0));
+/// let at = [[far, Vec3::ZERO], [slow, Vec3::ZERO]];
+/// let after = compensated_step::<f64, Coasting>(at[0], at[1], Vec3::ZERO, 0.5);
+/// assert_eq!(after, [[far, slow * 0.5], at[1]]);
+/// ```
+#[inline(always)]
+pub fn compensated_step<L: Lane, I: FlightStep>(
+    position: [Vec3<L>; 2],
+    velocity: [Vec3<L>; 2],
+    acceleration: Vec3<L>,
+    dt: L,
+) -> [[Vec3<L>; 2]; 2] {
+    let sum = |[sum, rest]: [Vec3<L>; 2], term| {
+        let (sum, rest) = compensated_sum(sum, rest, term);
+        [sum, rest]
+    };
+    let way = I::mean_velocity(velocity[0], acceleration, dt) * dt;
+    let after = if I::CHANGES_VELOCITY { sum(velocity, acceleration * dt) } else { velocity };
+    [sum(position, way), after]
 }
 
 /// A sum and what its rounding leaves out, once a term is added to both.

@@ -300,15 +300,20 @@ fn thin<T: Real>(
     Ok(())
 }
 
-/// Between two faces that look at each other, a body has room to move if it does
-/// or is pulled to one of them. Where there is none it would meet both without
-/// end.
-fn room<T: Real>(
-    shapes: &[Shape<T>],
-    gravity: Vec3<T>,
-    bodies: &Bodies<T>,
-    allowance: &Allowance<'_>,
-) -> Result<(), (usize, Problem)> {
+/// Two faces that look at each other, nearer than the greatest diameter or just as near.
+struct Slab<T> {
+    /// The parts of the faces.
+    parts: [usize; 2],
+    /// The normal of the first.
+    normal: Vec3<T>,
+    /// How far they are apart, length.
+    width: f64,
+    /// What rounding can make of that.
+    slack: f64,
+}
+
+/// All of them, between the faces of some shapes.
+fn narrow_slabs<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Vec<Slab<T>> {
     /// More planes make no slab that a person has in mind.
     const MOST: usize = 1000;
     let epsilon = T::EPSILON.to_f64();
@@ -322,6 +327,7 @@ fn room<T: Real>(
         .take(MOST)
         .collect();
     let greatest = bodies.radius.greatest().to_f64();
+    let mut slabs = Vec::new();
     for (first, &(floor, part)) in faces.iter().enumerate() {
         let normal = floor.normal;
         for &(ceiling, other) in &faces[first + 1..] {
@@ -330,28 +336,45 @@ fn room<T: Real>(
             let farthest =
                 [floor.point, ceiling.point].map(|point| largest(point.cast().to_array()));
             let slack = tolerance(epsilon, farthest[0].max(farthest[1]), greatest);
-            if !facing || width - 2.0 * greatest > slack {
-                continue;
+            if facing && width - 2.0 * greatest <= slack {
+                slabs.push(Slab { parts: [part, other], normal, width, slack });
             }
-            for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
-                let radius = bodies.radius.of(body).to_f64();
-                let moves = |vector: Vec3<T>| {
-                    let vector = vector.cast::<f64>();
-                    vector.dot(normal.cast()).abs() > 8.0 * epsilon * vector.length()
+        }
+    }
+    slabs
+}
+
+/// Whether a body may have no room to move between two faces.
+pub(super) fn has_narrow_slab<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> bool {
+    !narrow_slabs(shapes, bodies).is_empty()
+}
+
+/// Between two faces that look at each other, a body has room to move if it does
+/// or is pulled to one of them. Where there is none it would meet both without
+/// end.
+fn room<T: Real>(
+    shapes: &[Shape<T>],
+    gravity: Vec3<T>,
+    bodies: &Bodies<T>,
+    allowance: &Allowance<'_>,
+) -> Result<(), (usize, Problem)> {
+    let epsilon = T::EPSILON.to_f64();
+    for Slab { parts: [part, other], normal, width, slack } in narrow_slabs(shapes, bodies) {
+        for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
+            let radius = bodies.radius.of(body).to_f64();
+            let moves = |vector: Vec3<T>| {
+                let vector = vector.cast::<f64>();
+                vector.dot(normal.cast()).abs() > 8.0 * epsilon * vector.length()
+            };
+            let is_moved = moves(bodies.velocity_of(body)) || moves(gravity);
+            if is_moved && width - 2.0 * radius <= slack {
+                let what = match (part == other, shapes[part].interior()) {
+                    (true, Some(_)) => "the container leaves".to_owned(),
+                    (true, None) => "its faces leave".to_owned(),
+                    (false, _) => format!("with surroundings[{other}] it leaves"),
                 };
-                let is_moved = moves(bodies.velocity_of(body)) || moves(gravity);
-                if is_moved && width - 2.0 * radius <= slack {
-                    let what = match (part == other, shapes[part].interior()) {
-                        (true, Some(_)) => "the container leaves".to_owned(),
-                        (true, None) => "its faces leave".to_owned(),
-                        (false, _) => format!("with surroundings[{other}] it leaves"),
-                    };
-                    let direction = direction(normal);
-                    return Err((
-                        part,
-                        Problem::Wedged { what, body, direction, width: 2.0 * radius },
-                    ));
-                }
+                let direction = direction(normal);
+                return Err((part, Problem::Wedged { what, body, direction, width: 2.0 * radius }));
             }
         }
     }

@@ -19,6 +19,8 @@ pub(super) enum Purpose {
     Position,
     Velocity,
     Spin,
+    /// What a program draws for its own use.
+    Own,
 }
 
 /// Where the random numbers of a group of spheres come from.
@@ -37,8 +39,17 @@ impl Seed {
     }
 }
 
-/// A stream of random numbers.
-pub(super) struct Random {
+/// A stream of random numbers, the same bits on every machine.
+///
+/// ```
+/// use carom::scene::Random;
+///
+/// let draw = |seed| Random::of_seed(seed, 0).between(1.0, 2.0);
+/// assert_eq!(draw(7), draw(7));
+/// assert!(draw(7) != draw(8) && (1.0..2.0).contains(&draw(7)));
+/// ```
+#[derive(Debug)]
+pub struct Random {
     generator: ChaCha8Rng,
     spare: Option<f64>,
 }
@@ -53,14 +64,21 @@ impl Random {
         Self { generator, spare: None }
     }
 
+    /// A stream for a program's own use, as the variation of a scene with this seed. Each
+    /// `number` is another one, and none is one that places or moves spheres.
+    #[must_use]
+    pub fn of_seed(seed: u64, number: u64) -> Self {
+        Self::new(seed, number, Purpose::Own)
+    }
+
     /// Uniform in `[0, 1)`, a multiple of `2⁻⁵³`.
-    pub(super) fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         const UNIT: f64 = 1.0 / 9_007_199_254_740_992.0;
         (self.generator.next_u64() >> 11) as f64 * UNIT
     }
 
     /// Uniform between two bounds.
-    pub(super) fn between(&mut self, least: f64, greatest: f64) -> f64 {
+    pub fn between(&mut self, least: f64, greatest: f64) -> f64 {
         least + self.uniform() * (greatest - least)
     }
 
@@ -88,7 +106,7 @@ impl Random {
     }
 
     /// Normal with mean 0 and variance 1.
-    pub(super) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         if let Some(spare) = self.spare.take() {
             return spare;
         }

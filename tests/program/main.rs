@@ -2,6 +2,7 @@
 
 mod analyses;
 mod bad_input;
+mod batch;
 mod cases;
 mod ends;
 mod event_driven;

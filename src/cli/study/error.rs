@@ -106,7 +106,7 @@ impl ErrorArguments {
         let name = format!("study-error-{}", file.name);
         let (folder, journal) =
             self.folder.open(&name, &("error", Subject::of(&file), study.sweep()))?;
-        let report = study.measure(&journal, self.of, &Teller::new(&folder))?;
+        let report = study.measure(&journal, self.of, &Teller::new(folder.path()))?;
         report.write(&folder)?;
         print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))
     }

@@ -48,7 +48,7 @@ impl PrecisionArguments {
         let study = PrecisionStudy::new(&file, self.runs, self.samples)?;
         let default = format!("study-precision-{}", file.name);
         let (folder, journal) = self.folder.open(&default, &study.heading())?;
-        let teller = Teller::new(&folder);
+        let teller = Teller::new(folder.path());
         let report = study.measure(&journal, &teller)?;
         drop(teller);
         report.write(&folder)?;

@@ -63,7 +63,7 @@ impl ScalingArguments {
         let study = Scaling::new(&file, &self.settings())?;
         let name = format!("study-scaling-{}", file.name);
         let (folder, journal) = self.folder.open(&name, &study)?;
-        let report = study.measure(&journal, &Teller::new(&folder))?;
+        let report = study.measure(&journal, &Teller::new(folder.path()))?;
         report.write(&folder)?;
         print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))?;
         Ok(report.verdict()?)

@@ -42,7 +42,7 @@ impl StabilityArguments {
         };
         let extent = if self.quick { Extent::Quick } else { Extent::Full };
         let (folder, journal) = self.folder.open("study-stability", &heading(extent))?;
-        let report = stability::study(&chosen, extent, &journal, &Teller::new(&folder))?;
+        let report = stability::study(&chosen, extent, &journal, &Teller::new(folder.path()))?;
         report.write(&folder)?;
         print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))
     }

@@ -2,10 +2,11 @@
 
 use core::time::Duration;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use carom::study::{Folder, Watch};
+use carom::study::Watch;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::cli::interrupt::last_words;
@@ -30,9 +31,9 @@ struct Log {
 }
 
 impl Teller {
-    /// For a study whose points go into this folder.
-    pub fn new(folder: &Folder) -> Self {
-        let path = folder.path().display().to_string();
+    /// For a study whose points go into this folder or file.
+    pub fn new(path: &Path) -> Self {
+        let path = path.display();
         last_words(format!("interrupted; the finished points are in {path}: start again to go on"));
         let log = Log { done: 0, all: 0, last: Instant::now() };
         Self { bar: Mutex::new(None), log: Mutex::new(log) }

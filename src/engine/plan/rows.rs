@@ -91,6 +91,13 @@ impl fmt::Display for Plan {
                 Turning::FromLastContact => "a closed form from the last contact, when asked",
                 Turning::EachStep => "turned in each step, as the scene wants it",
             },
+        )?;
+        row(
+            "in a batch",
+            &match self.alone_in_batch() {
+                None => "a scene in each lane; every pair is tested".to_owned(),
+                Some(why) => format!("scene by scene on all threads: {why}"),
+            },
         )
     }
 }

@@ -8,6 +8,7 @@ use super::setting::Setting;
 use super::state::{State, put};
 use crate::bodies::at;
 use crate::engine::account::Account;
+use crate::engine::event::Struck;
 use crate::engine::{Event, Partner};
 use crate::motion::flight::Wrap;
 use crate::real::Real;
@@ -75,35 +76,32 @@ fn event<T: Real>(
     let before = path.end_velocity(at(&state.velocity, slot));
     let center = path.center(at(&state.position, slot), before, contact.ago);
     let center = setting.periodic.map_or(center, |space| space.wrap(center));
-    let length = outcome.offset.length();
-    let normal = outcome.offset * (T::ONE / length);
     let at_contact = |velocity: Vec3<T>| path.velocity(path.end_velocity(velocity), contact.ago);
     // Collisions of smooth bodies do not read spins.
     let spin_after = |slot: u32, spin: Vec3<T>| match setting.plan.changes_spins {
         true => spin,
         false => at(&state.spin, state.index[slot as usize] as usize),
     };
-    let (partner, arm) = if contact.rank.is_pair() {
+    let (partner, share) = if contact.rank.is_pair() {
         let radius = |slot: u32| state.radius.of(slot as usize);
-        let share = radius(contact.a) / (radius(contact.a) + radius(contact.b));
         let partner = Partner::Body {
             index: state.index[contact.b as usize],
             velocity: at_contact(outcome.b.velocity),
             spin: spin_after(contact.b, outcome.b.spin),
         };
-        (partner, outcome.offset * share)
+        (partner, Some(radius(contact.a) / (radius(contact.a) + radius(contact.b))))
     } else {
-        (Partner::Surroundings(setting.features.shape_of(contact.b)), outcome.offset)
+        (Partner::Surroundings(setting.features.shape_of(contact.b)), None)
     };
-    Event {
-        time: clock.time_before_end(setting.exact_dt, contact.ago.to_f64()),
+    let struck = Struck {
         a: state.index[slot],
-        partner,
-        point: center - arm,
-        normal,
-        normal_impulse: outcome.normal.length(),
-        tangential_impulse: outcome.tangential,
+        center,
+        offset: outcome.offset,
+        share,
+        normal: outcome.normal,
+        tangential: outcome.tangential,
         velocity: at_contact(outcome.a.velocity),
         spin: spin_after(contact.a, outcome.a.spin),
-    }
+    };
+    struck.event(clock.time_before_end(setting.exact_dt, contact.ago.to_f64()), partner)
 }

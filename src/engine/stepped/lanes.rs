@@ -18,4 +18,4 @@ macro_rules! in_lanes {
         }
     };
 }
-pub(super) use in_lanes;
+pub(in crate::engine) use in_lanes;

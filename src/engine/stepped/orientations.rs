@@ -13,7 +13,7 @@ const COUNTED: u64 = 1 << 31;
 
 /// When the stored orientations were true.
 #[derive(Debug)]
-pub(super) struct Orientations<T: Real> {
+pub struct Orientations<T: Real> {
     turning: Turning,
     /// The step, since the counters' start, at or before whose end a body was
     /// last turned.
@@ -66,7 +66,7 @@ impl<T: Real> Orientations<T> {
         let since = |from: u64| T::from_f64((steps - from) as f64) * dt - ago;
         match self.turning {
             Turning::Never | Turning::EachStep => T::ZERO,
-            Turning::FromStart => since(0),
+            Turning::FromStart => since(self.counted_from),
             Turning::FromLastContact => {
                 let turned = since(self.counted_from + u64::from(self.step[index]));
                 self.ago.as_ref().map_or(turned, |column| turned + column[index])
@@ -91,11 +91,16 @@ impl<T: Real> Orientations<T> {
 
     /// Whether the counters have to start again before they overflow.
     pub fn is_full(&self, steps: u64) -> bool {
-        self.is_counted() && steps - self.counted_from >= COUNTED
+        self.is_counted() && steps >= self.full_at()
+    }
+
+    /// The number of steps at which they do.
+    pub fn full_at(&self) -> u64 {
+        self.counted_from + COUNTED
     }
 
     /// Starts the counters again: all stored orientations are those of the end of
-    /// step `steps`.
+    /// step `steps`, also where spins never change.
     pub fn restart(&mut self, steps: u64) {
         self.step.fill(0);
         if let Some(column) = &mut self.ago {

@@ -26,7 +26,7 @@ pub(in crate::engine) struct StepState {
 
 /// When the stored orientations were true.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Marks {
+pub struct Marks {
     pub step: Vec<u32>,
     pub ago: Option<Reals>,
     pub counted_from: u64,

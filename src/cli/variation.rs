@@ -2,7 +2,11 @@
 
 use std::collections::HashSet;
 
-use crate::cli::failure::Failure;
+use carom::scene::{SceneError, SceneFile};
+
+use super::arguments::SceneArguments;
+use super::failure::Failure;
+use super::scene_argument::with_options;
 
 /// More runs than this are a slip of the pen.
 pub const MOST_RUNS: u64 = 1_000_000;
@@ -113,7 +117,7 @@ fn shown(value: f64, are_whole: bool) -> String {
 }
 
 /// The pieces between commas that stand in no brackets and no quotes.
-fn split(text: &str) -> Vec<String> {
+pub fn split(text: &str) -> Vec<String> {
     let (mut pieces, mut depth, mut quote) = (vec![String::new()], 0_usize, None);
     for c in text.chars() {
         match (c, quote) {
@@ -132,6 +136,58 @@ fn split(text: &str) -> Vec<String> {
         }
     }
     pieces.iter().map(|piece| piece.trim().to_owned()).collect()
+}
+
+/// The scene with one choice of values.
+pub fn varied(
+    base: &SceneFile,
+    arguments: &SceneArguments,
+    keys: &[&str],
+    choice: &[impl AsRef<str>],
+) -> Result<SceneFile, Failure> {
+    let values: Vec<String> =
+        keys.iter().zip(choice).map(|(key, value)| format!("{key}={}", value.as_ref())).collect();
+    let file = base.with_values(&values).map_err(|error| blamed(&error, keys))?;
+    Ok(with_options(file, arguments))
+}
+
+/// An error of a value that is varied names the option that gives it.
+pub fn blamed(error: &SceneError, keys: &[&str]) -> Failure {
+    let text = error.to_string();
+    let is_varied = |key: &&str| {
+        let option = format!("--set {key}");
+        text.strip_prefix(&option).is_some_and(|rest| !rest.starts_with(['.', '[']))
+    };
+    match text.strip_prefix("--set ") {
+        Some(rest) if keys.iter().any(is_varied) => Failure::Argument(format!("--vary {rest}")),
+        _ => Failure::Argument(text),
+    }
+}
+
+/// The seeds of a scene's runs, as many as an option says.
+pub fn seeds(file: &SceneFile, option: &str, count: u64) -> Result<Vec<u64>, Failure> {
+    let last = file.seed.checked_add(count - 1).ok_or_else(|| {
+        let seed = file.seed;
+        Failure::Argument(format!("{option} {count}: from {seed} on there are not so many seeds"))
+    })?;
+    Ok((file.seed..=last).collect())
+}
+
+/// A key that an option gives one value cannot be given others.
+pub fn refuse_both(arguments: &SceneArguments, keys: &[&str]) -> Result<(), Failure> {
+    let given = [
+        ("precision", "--precision", arguments.precision.is_some()),
+        ("engine", "--engine", arguments.engine.is_some()),
+        ("stepped.dt", "--dt", arguments.dt.is_some()),
+        ("duration", "--duration", arguments.duration.is_some()),
+        ("seed", "--seed", arguments.seed.is_some()),
+    ];
+    match given.into_iter().find(|(key, _, is_given)| *is_given && keys.contains(key)) {
+        None => Ok(()),
+        Some((key, option, _)) => Err(Failure::Argument(format!(
+            "--vary {key} and {option} both give it values; leave out one of them"
+        ))),
+    }
 }
 
 #[cfg(test)]
