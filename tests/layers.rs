@@ -82,7 +82,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 27] = [
+const SCENE: [&str; 28] = [
     "settings",
     "spheres",
     "random",
