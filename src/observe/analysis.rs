@@ -323,7 +323,7 @@ impl<'a> Chosen<'a> {
     }
 
     /// An error if a lower end is chosen, for what begins at 0.
-    fn from_zero(&self) -> Result<(), Unfit> {
+    fn begins_at_zero(&self) -> Result<(), Unfit> {
         match self.range()[0] {
             None | Some(0.0) => Ok(()),
             Some(from) => {

@@ -47,7 +47,7 @@ const FIGURES: [&str; 5] = ["q4", "q6", "mean_q4", "mean_q6", "neighbours"];
 impl BondOrder {
     pub fn new(chosen: &Chosen<'_>, moment: &Moment<'_>) -> Result<Self, Unfit> {
         let (volume, side) = moment.cell()?;
-        chosen.from_zero()?;
+        chosen.begins_at_zero()?;
         let half = 0.5 * side;
         let usual = half.min(REACH * (volume / moment.bodies.len() as f64).cbrt());
         let reach = chosen.range()[1].unwrap_or(usual);

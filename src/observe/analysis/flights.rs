@@ -44,7 +44,7 @@ pub struct CollisionStatistics {
 
 impl CollisionStatistics {
     pub fn new(chosen: &Chosen<'_>) -> Result<Self, Unfit> {
-        chosen.from_zero()?;
+        chosen.begins_at_zero()?;
         let Members { some, .. } = chosen.only();
         let count = chosen.bins(BINS);
         let bodies = chosen.bodies;

@@ -53,7 +53,7 @@ pub struct Lag {
 impl Lags {
     pub fn new(chosen: &Chosen<'_>) -> Result<Self, Unfit> {
         chosen.without_bins()?;
-        chosen.from_zero()?;
+        chosen.begins_at_zero()?;
         let longest = chosen.range()[1].unwrap_or(f64::INFINITY);
         let tally = Tally::default();
         Ok(Self { members: chosen.only(), longest, levels: Vec::new(), tally })
@@ -80,7 +80,7 @@ impl Lags {
         };
         self.tally.add(0, mean(&vectors));
         for level in 0.. {
-            if look % (1 << level) != 0 {
+            if !look.is_multiple_of(1 << level) {
                 break;
             }
             if level == self.levels.len() {

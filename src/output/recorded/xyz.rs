@@ -101,7 +101,7 @@ fn pairs(line: &str) -> Vec<(&str, &str)> {
 /// Where the values of a row go, by `name:type:count` of each property.
 fn places(properties: &str) -> Result<Vec<Option<usize>>, String> {
     let fields: Vec<&str> = properties.split(':').collect();
-    if fields.len() % 3 != 0 {
+    if !fields.len().is_multiple_of(3) {
         return Err("Properties are name:type:count of each".to_owned());
     }
     let mut places = Vec::new();
