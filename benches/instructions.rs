@@ -11,10 +11,13 @@
 //! take, without what goes before. Valgrind does not know AVX-512, which these flags leave
 //! out.
 
+// Other benches use the rest of these.
+#[expect(dead_code)]
 #[path = "kernels/columns.rs"]
 mod columns;
 #[path = "common/fluid.rs"]
 mod fluid;
+#[expect(dead_code)]
 #[path = "common/process.rs"]
 mod process;
 #[path = "common/scenes.rs"]
