@@ -77,8 +77,8 @@ impl<T: Real> Alone<T> {
 /// integrator, in open space, by the stepped engine with impacts at the end of a step. They
 /// may differ in positions, velocities, spins, radii, masses, gravity, step and duration.
 /// All other scenes can be in a batch too, and run one by one on all threads; so do those of
-/// more than 128 bodies, for which cells are faster than all pairs. `carom explain` says
-/// which way a scene takes.
+/// more than 128 bodies, since lanes test every pair. `carom explain` says which way a scene
+/// takes.
 ///
 /// ```
 /// use carom::scene::EngineKind;

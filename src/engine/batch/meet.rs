@@ -14,7 +14,8 @@ use crate::motion::rotation::turned;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// Up to this many lanes a contact is worked out lane by lane, which is faster.
+/// Up to this many lanes a contact is worked out lane by lane, not as a pack of which most
+/// is thrown away.
 const FEW: u32 = 2;
 
 /// What a body touches.

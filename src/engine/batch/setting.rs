@@ -81,7 +81,7 @@ impl Plan {
         } else if self.turning == Turning::EachStep {
             Some("orientations are turned in each step")
         } else if self.has_pairs && self.bodies > MOST_BODIES || contacts > MOST_CONTACTS {
-            Some("there are so many bodies that cells are faster than all pairs")
+            Some("there are more bodies than lanes test in all pairs")
         } else {
             None
         }
