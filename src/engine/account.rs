@@ -108,7 +108,8 @@ impl Account {
     /// the offset from the second centre to the first.
     #[inline(always)]
     pub fn pair<T: Real>(&mut self, normal: Vec3<T>, offset: Vec3<T>) {
-        self.collisions.pairs += 1;
+        // A worker may have taken more back than it has counted.
+        self.collisions.pairs = self.collisions.pairs.wrapping_add(1);
         self.virial.add(virial(normal, offset));
     }
 
@@ -120,7 +121,7 @@ impl Account {
         [normal, tangential]: [Vec3<T>; 2],
         counter: Option<Counter>,
     ) {
-        self.collisions.surroundings += 1;
+        self.collisions.surroundings = self.collisions.surroundings.wrapping_add(1);
         self.add_impulse([normal, tangential], counter, T::ONE, 1);
     }
 

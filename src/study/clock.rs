@@ -291,8 +291,8 @@ mod tests {
             run += 1;
             Ok(if run == 3 || run == 5 { 9.0 } else { 1.0 })
         })];
-        let [timing] = &rounds(&mut variant, 7)?[..] else { return Ok(()) };
-        assert_eq!((timing.runs.len(), timing.outliers()), (9, 2));
+        let [timing] = &rounds(&mut variant, 11)?[..] else { return Ok(()) };
+        assert_eq!((timing.runs.len(), timing.outliers()), (13, 2));
         assert_eq!((timing.median, timing.uncertainty()), (1.0, 0.0));
         assert!(!timing.is_uncertain());
         Ok(())
