@@ -57,7 +57,10 @@ fn every_variant_of_a_size_ends_in_the_same_bits() {
         for rows in &report.points {
             for row in rows {
                 assert_eq!(row.state_hash, rows[0].state_hash);
-                assert_eq!((row.work, row.timing.runs.len()), (rows[0].work, 2));
+                // As many runs as were asked for, or more while times are uncertain.
+                let runs = row.timing.runs.len();
+                assert!((2..=6).contains(&runs), "{runs}");
+                assert_eq!((row.work, runs), (rows[0].work, rows[0].timing.runs.len()));
                 assert!(row.work > 0 && row.bytes > 20 * row.bodies);
             }
         }

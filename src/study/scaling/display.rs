@@ -53,7 +53,7 @@ impl ScalingReport {
             false => format!("Speed-up: {}, within a round.\n", over.join(", ")),
         };
         format!(
-            "Medians of {}, each with its quartiles; all variants of a size were run in turn.\n\
+            "Medians of {} or more, each with its quartiles; all variants of a size were run in turn.\n\
              {speed_up}Set-up: making the scene and its world, ms. B/body: bytes of the engine.\n\
              Peak: of the process with one world, the making of its scene included.\n",
             counted(*runs as u64, "run"),
