@@ -184,7 +184,9 @@ fn built_in_scenes_agree_with_f64() {
                 EngineKind::EventDriven if large.contains(&builtin.name) => 0.02,
                 // Convex obstacles part paths quickly.
                 EngineKind::EventDriven if builtin.name == "lorentz-gas" => 0.3,
-                EngineKind::EventDriven if ["giant-in-dust", "terrain"].contains(&builtin.name) => 0.1,
+                EngineKind::EventDriven if ["giant-in-dust", "terrain"].contains(&builtin.name) => {
+                    0.1
+                }
                 EngineKind::EventDriven if builtin.name == "galton-board" => 1.5,
                 _ => 2.5,
             };
