@@ -93,7 +93,7 @@ impl<T: Real> Alone<T> {
 /// })?;
 /// batch.advance(2.0)?;
 /// let collided = batch.collisions().filter(|collisions| collisions.pairs == 1).count();
-/// assert_eq!(collided, 499);
+/// assert_eq!(collided, 500);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
