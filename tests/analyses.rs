@@ -316,8 +316,10 @@ fn flights_are_those_of_enskog() {
             ["", "_density", "_error", "_at_random"].map(|rest| column(&findings[0], &name(rest)));
         let law = enskog_flights(time, middle[1] - middle[0], 60, of_paths);
         let (far, at_random) = (off(&density, &error, &law), off(&density, &error, &random));
-        assert!(far < 2.5, "{kind}: {far}");
-        assert!(at_random > 4.0 * far, "{kind}: {at_random}");
+        assert!(far < 1.6, "{kind}: {far}");
+        println!("{kind}: {far:.2}, at random {at_random:.2}");
+        // Times are those of collisions at random too, as far as so many flights tell.
+        assert!(!of_paths || at_random > 2.0 * far, "{kind}: {at_random}");
     }
 }
 
