@@ -35,7 +35,7 @@ use carom::mat3::Mat3;
 use carom::motion::rotation::turned;
 use carom::real::Real;
 use carom::scene::Impact;
-use carom::surroundings::{Cuboid, Cylinder, Feature, FixedSphere, Plane, Shape, Torus};
+use carom::surroundings::{Capsule, Cuboid, Feature, FixedSphere, Plane, Torus};
 use carom::vec3::Vec3;
 use columns::uniform;
 use fluid::Fluid;
@@ -84,9 +84,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}; callgrind of {}", process::processor(), version()?);
     println!("\n| | instructions | a |\n|---|--:|---|");
     for (index, row) in rows.iter().enumerate().filter(|(_, row)| is_wanted(row)) {
-        let ([none, _], [some, done]) = (counted(index, 0)?, counted(index, row.units)?);
-        let each = (some - none) as f64 / done as f64;
-        println!("| {} | {each:.0} | {} |", row.name, row.unit);
+        // Valgrind does not know every instruction: the other rows are counted all the same.
+        match counted(index, 0).and_then(|none| Ok((none, counted(index, row.units)?))) {
+            Ok(([none, _], [some, done])) => {
+                let each = (some - none) as f64 / done as f64;
+                println!("| {} | {each:.0} | {} |", row.name, row.unit);
+            }
+            Err(error) => println!("| {} | – | {error} |", row.name),
+        }
     }
     Ok(())
 }
@@ -109,7 +114,8 @@ fn counted(index: usize, units: u64) -> Result<[u64; 2], Box<dyn Error>> {
     let messages = String::from_utf8_lossy(&output.stderr);
     let count = messages.lines().find_map(|line| line.split_once("Collected : "));
     let Some((_, count)) = count.filter(|_| output.status.success()) else {
-        return Err(format!("callgrind has counted nothing:\n{messages}").into());
+        let reason = messages.lines().find(|line| line.contains("nrecognised instruction"));
+        return Err(reason.unwrap_or(&messages).to_owned().into());
     };
     Ok([count.trim().parse()?, String::from_utf8(output.stdout)?.trim().parse()?])
 }
@@ -240,23 +246,18 @@ fn pair<L: Lane>(law: impl contact::Law<L>, inputs: [L; 12]) -> L {
 
 /// Times of contact with what is fixed: half of the flights are aimed at it.
 fn times(rows: &mut Vec<Row>) {
-    let features: [(&str, Feature<f64>); 5] = [
-        ("a plane", Plane::new([0.0; 3], [0.0, 0.0, 1.0]).into()),
-        ("a sphere", FixedSphere::solid([0.0; 3], 2.0).into()),
-        ("a box", Cuboid::solid([-2.0; 3], [2.0; 3]).into()),
-        (
-            "a cylinder",
-            Shape::from(Cylinder::solid([0.0; 3], [0.0, 0.0, 1.0], 2.0, Some(2.0)))
-                .features()
-                .swap_remove(0),
-        ),
-        ("a torus", Torus::solid([0.0; 3], [0.0, 0.0, 1.0], 3.0, 1.0).into()),
+    let features: [(&str, fn() -> Feature<f64>); 5] = [
+        ("a plane", || Plane::new([0.0; 3], [0.0, 0.0, 1.0]).into()),
+        ("a sphere", || FixedSphere::solid([0.0; 3], 2.0).into()),
+        ("a box", || Cuboid::solid([-2.0; 3], [2.0; 3]).into()),
+        ("a capsule", || Capsule::solid([-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], 1.0).into()),
+        ("a torus", || Torus::solid([0.0; 3], [0.0, 0.0, 1.0], 3.0, 1.0).into()),
     ];
     for (name, feature) in features {
         for (path, field) in [("straight", None), ("parabola", Some(Vec3::new(0.0, 0.0, -1.0)))] {
             let flights = uniform::<f64, 6>(SPHERES, -1.0, 1.0, 2);
-            let feature = feature.clone();
             let work = move |times: u64| {
+                let feature = feature();
                 for _ in 0..times {
                     for k in 0..SPHERES {
                         let [x, y, z, u, v, w] = flights.each_ref().map(|column| column[k]);
