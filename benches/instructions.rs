@@ -246,7 +246,8 @@ fn pair<L: Lane>(law: impl contact::Law<L>, inputs: [L; 12]) -> L {
 
 /// Times of contact with what is fixed: half of the flights are aimed at it.
 fn times(rows: &mut Vec<Row>) {
-    let features: [(&str, fn() -> Feature<f64>); 5] = [
+    type Made = fn() -> Feature<f64>;
+    let features: [(&str, Made); 5] = [
         ("a plane", || Plane::new([0.0; 3], [0.0, 0.0, 1.0]).into()),
         ("a sphere", || FixedSphere::solid([0.0; 3], 2.0).into()),
         ("a box", || Cuboid::solid([-2.0; 3], [2.0; 3]).into()),
