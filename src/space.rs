@@ -40,6 +40,8 @@ mod periodic;
 pub(crate) mod pieces;
 mod sizes;
 mod sphere_tree;
+#[cfg(test)]
+mod test_boxes;
 mod tree;
 
 pub(crate) use near_pairs::for_each_near_pair;

@@ -162,6 +162,12 @@ impl<L: Lane> Clearance<L> {
         }
     }
 
+    /// Of a sphere and what its centre is off by a distance, along a unit normal.
+    #[inline(always)]
+    fn off((distance, normal): (L, Vec3<L>), radius: L) -> Self {
+        Self { gap: distance - radius, arm: normal * radius }
+    }
+
     /// How far a sphere is to be moved so that the two surfaces just touch, length.
     ///
     /// ```
@@ -260,19 +266,6 @@ impl<T: Real> Feature<T> {
     ) -> Option<T> {
         let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
         Obstacle::contact_time(self, &flight)
-    }
-
-    /// [`contact_time`](Self::contact_time) of a sphere that has just bounced off the
-    /// feature, and follows it in flights long enough to get on by.
-    pub(crate) fn hop_time(
-        &self,
-        center: Vec3<T>,
-        velocity: Vec3<T>,
-        acceleration: Option<Vec3<T>>,
-        radius: T,
-    ) -> Option<T> {
-        let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving: true };
-        Obstacle::contact_time(self, &flight).map(|wait| self.hop(&flight, wait))
     }
 
     /// Whether it is curved towards the spheres: one that grazes it follows it in

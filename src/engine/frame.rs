@@ -161,13 +161,13 @@ impl<T: Real> Frame<T> {
 fn origin<T: Real>(scene: &Scene<T>) -> Vec3<T> {
     let mut origin = [T::ZERO; 3];
     let radius = scene.bodies.radius.greatest();
+    let points: Vec<Vec3<T>> = scene
+        .periodic
+        .map_or(Vec::new(), |PeriodicBox { lower, upper }| vec![lower, upper])
+        .into_iter()
+        .chain(scene.surroundings.iter().flat_map(|shape| shape.points()))
+        .collect();
     for (axis, origin) in origin.iter_mut().enumerate() {
-        let points: Vec<Vec3<T>> = scene
-            .periodic
-            .map_or(Vec::new(), |PeriodicBox { lower, upper }| vec![lower, upper])
-            .into_iter()
-            .chain(scene.surroundings.iter().flat_map(|shape| shape.points()))
-            .collect();
         let points = points.iter().map(|point| point.to_array()[axis]);
         let coordinates = || scene.bodies.position[axis].iter().copied().chain(points.clone());
         let Some([least, greatest]) = ends(coordinates()) else { return Vec3::ZERO };

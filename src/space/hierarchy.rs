@@ -39,7 +39,7 @@ pub(crate) struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// Over so many parts, each in its box.
+    /// Over a number of parts, each in its box.
     pub(crate) fn new<T: Real>(count: u32, bounds: impl Fn(u32) -> Bounds<T>) -> Self {
         let mut hierarchy = Self { nodes: Vec::new() };
         if count > 0 {
@@ -168,17 +168,8 @@ fn below<T: Real>(value: T) -> f32 {
 mod tests {
     use super::*;
     use crate::space::noise::noise;
+    use crate::space::test_boxes::{cube, touch};
     use crate::vec3::Vec3;
-
-    fn cube<T: Real>(center: [f64; 3], half: f64) -> Bounds<T> {
-        let corner = |sign: f64| Vec3::from(center.map(|c| T::from_f64(c + sign * half)));
-        [corner(-1.0), corner(1.0)]
-    }
-
-    fn touch<T: Real>(a: &Bounds<T>, b: &Bounds<T>) -> bool {
-        let [a, b] = [a.map(Vec3::to_array), b.map(Vec3::to_array)];
-        (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
-    }
 
     fn finds_all<T: Real>(count: u32, far: f64, half: f64) {
         let mut noise = noise();

@@ -268,10 +268,7 @@ fn grown<T: Real>([lower, upper]: Bounds<T>) -> Bounds<T> {
 
 /// The box around two boxes.
 pub(crate) fn joined<T: Real>([a, b]: Bounds<T>, [c, d]: Bounds<T>) -> Bounds<T> {
-    [
-        Vec3::new(a.x.lesser(c.x), a.y.lesser(c.y), a.z.lesser(c.z)),
-        Vec3::new(b.x.greater(d.x), b.y.greater(d.y), b.z.greater(d.z)),
-    ]
+    [a.lesser(c), b.greater(d)]
 }
 
 /// Twice the centre of a box, along an axis, from halves that do not overflow.
@@ -299,17 +296,8 @@ mod tests {
     use super::{Bounds, Tree};
     use crate::real::Real;
     use crate::space::noise::noise;
+    use crate::space::test_boxes::{cube, touch};
     use crate::vec3::Vec3;
-
-    fn cube<T: Real>(center: [f64; 3], half: f64) -> Bounds<T> {
-        let corner = |sign: f64| Vec3::from(center.map(|c| T::from_f64(c + sign * half)));
-        [corner(-1.0), corner(1.0)]
-    }
-
-    fn touch<T: Real>(a: &Bounds<T>, b: &Bounds<T>) -> bool {
-        let [a, b] = [a.map(Vec3::to_array), b.map(Vec3::to_array)];
-        (0..3).all(|k| a[0][k] <= b[1][k] && b[0][k] <= a[1][k])
-    }
 
     /// Every box that a look at all of them finds is found, once and in order;
     /// no box that is farther than rounding.

@@ -3,6 +3,7 @@
 use super::placement::Placement;
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// The axis of something round.
@@ -103,11 +104,6 @@ impl<T: Real> Axis<T> {
 pub(super) fn pi<T: Real>() -> T {
     let [first, second, third] = T::QUARTER_TURN;
     (first + (second + third)) * T::whole(2)
-}
-
-/// The corners of the box around two.
-pub(super) fn joined<T: Real>([a, b]: [Vec3<T>; 2], [c, d]: [Vec3<T>; 2]) -> [Vec3<T>; 2] {
-    [a.lesser(c), b.greater(d)]
 }
 
 /// The corners of a box that fits into a cylinder of a radius and half a height about the

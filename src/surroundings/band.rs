@@ -58,25 +58,19 @@ impl<T: Real> Band<T> {
     fn nearest<L: Lane<Scalar = T>>(&self, place: Vec3<L>) -> (L, Vec3<L>) {
         let place = self.axis.place(place);
         let beside = self.slant.beside(place.distance, place.height);
-        let [out, up] = beside.normal;
-        let normal = place.outward * out + Vec3::splat(self.axis.direction) * up;
         let is_solid = match self.sides {
-            Sides::Both => return (beside.distance, normal),
+            Sides::Both => L::ZERO.lt(L::ZERO),
             Sides::Inner => beside.is_right,
             Sides::Outer => !beside.is_right,
         };
-        (
-            L::select(is_solid, -beside.distance, beside.distance),
-            Vec3::select(is_solid, -normal, normal),
-        )
+        beside.about(&self.axis, &place, is_solid)
     }
 }
 
 impl<T: Real> Obstacle<T> for Band<T> {
     #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
-        let (distance, normal) = self.nearest(center);
-        Clearance { gap: distance - radius, arm: normal * radius }
+        Clearance::off(self.nearest(center), radius)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -1,6 +1,6 @@
 //! Capsule: a cylinder with round ends, solid or hollow.
 
-use super::axis::{Axis, inscribed, joined, pi};
+use super::axis::{Axis, inscribed, pi};
 use super::entry::{INSIDE, Key, Meaning, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, point, positive};
 use super::piece::Piece;
@@ -11,6 +11,7 @@ use super::{Clearance, Feature};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// A capsule fixed in space: all that is within a radius of a line.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Clearance;
-use super::axis::{Axis, joined};
+use super::axis::Axis;
 use super::piece::Piece;
 use super::pieced::Pieced;
 use super::slant::Slant;
@@ -11,6 +11,7 @@ use super::solid::Obstacle;
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// What a sphere touches of a closed [`Revolved`](super::Revolved): lines of its profile from
@@ -71,15 +72,10 @@ impl<T: Real> Chain<T> {
             }
             if k < self.own {
                 let beside = slant.beside(place.distance, place.height);
-                let (distance, normal) = best.unwrap_or((beside.distance, beside.normal));
-                let is_nearer = beside.distance.lt(distance);
-                let pick = |k: usize| L::select(is_nearer, beside.normal[k], normal[k]);
-                best = Some((L::select(is_nearer, beside.distance, distance), [pick(0), pick(1)]));
+                best = Some(best.map_or(beside, |best| beside.or_nearer(best)));
             }
         }
-        let (distance, [out, up]) = best.unwrap_or((L::ZERO, [L::ZERO, L::ZERO]));
-        let normal = place.outward * out + Vec3::splat(self.axis.direction) * up;
-        (L::select(is_inside, -distance, distance), Vec3::select(is_inside, -normal, normal))
+        best.map_or((L::ZERO, Vec3::ZERO), |best| best.about(&self.axis, &place, is_inside))
     }
 }
 
@@ -99,8 +95,7 @@ impl<T: Real> Obstacle<T> for Chain<T> {
     /// A centre inside is pushed out through the chain.
     #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
-        let (distance, normal) = self.nearest(center);
-        Clearance { gap: distance - radius, arm: normal * radius }
+        Clearance::off(self.nearest(center), radius)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -1,6 +1,6 @@
 //! Cone: a cone or a frustum, solid or hollow.
 
-use super::axis::{Axis, inscribed, joined, pi};
+use super::axis::{Axis, inscribed, pi};
 use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, Meaning, RADIUS, ShapeEntry, TOP_RADIUS};
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
@@ -8,6 +8,7 @@ use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature, Frustum, Plane};
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// A cone fixed in space, or, with a radius at its top, a frustum.

@@ -1,12 +1,13 @@
 //! Cylinder: solid or hollow, with ends or without.
 
-use super::axis::{Axis, inscribed, joined, pi};
+use super::axis::{Axis, inscribed, pi};
 use super::entry::{AXIS, CENTER, HALF_HEIGHT, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry};
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
 use super::solid::Solid;
 use super::{Feature, Frustum, Plane, Rod};
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// A cylinder fixed in space.

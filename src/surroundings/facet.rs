@@ -170,8 +170,7 @@ fn farthest<T: Real>(corners: [Vec3<T>; 3]) -> T {
 impl<T: Real> Obstacle<T> for Facet<T> {
     #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
-        let (distance, normal) = self.nearest(center);
-        Clearance { gap: distance - radius, arm: normal * radius }
+        Clearance::off(self.nearest(center), radius)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -177,37 +177,20 @@ impl<T: Real> FeatureRef<'_, T> {
     }
 
     /// As [`Feature::contact_time`].
-    pub(crate) fn contact_time(
-        &self,
-        center: Vec3<T>,
-        velocity: Vec3<T>,
-        acceleration: Option<Vec3<T>>,
-        radius: T,
-        is_leaving: bool,
-    ) -> Option<T> {
+    pub(crate) fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {
         match self {
-            Self::Alone(feature) => {
-                feature.contact_time(center, velocity, acceleration, radius, is_leaving)
-            }
-            Self::Tile(tile) => {
-                let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
-                tile.contact_time(&flight)
-            }
+            Self::Alone(feature) => Obstacle::contact_time(*feature, flight),
+            Self::Tile(tile) => tile.contact_time(flight),
         }
     }
 
-    /// As [`Feature::hop_time`].
-    pub(crate) fn hop_time(
-        &self,
-        center: Vec3<T>,
-        velocity: Vec3<T>,
-        acceleration: Option<Vec3<T>>,
-        radius: T,
-    ) -> Option<T> {
-        match self {
-            Self::Alone(feature) => feature.hop_time(center, velocity, acceleration, radius),
-            Self::Tile(_) => self.contact_time(center, velocity, acceleration, radius, true),
-        }
+    /// The same of a sphere that has just bounced off the feature, and follows it in flights
+    /// long enough to get on by.
+    pub(crate) fn hop_time(&self, flight: &FreeFlight<T>) -> Option<T> {
+        self.contact_time(flight).map(|wait| match self {
+            Self::Alone(feature) => feature.hop(flight, wait),
+            Self::Tile(tile) => tile.hop(flight, wait),
+        })
     }
 
     /// As [`Feature::is_hollow`].

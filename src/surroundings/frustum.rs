@@ -1,7 +1,7 @@
 //! Frustum: a solid cylinder or cone with its ends.
 
 use super::Clearance;
-use super::axis::{Axis, joined};
+use super::axis::Axis;
 use super::piece::Piece;
 use super::pieced::Pieced;
 use super::slant::Slant;
@@ -9,6 +9,7 @@ use super::solid::Obstacle;
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// What a sphere touches of a solid [`Cylinder`](super::Cylinder) with ends, or of a
@@ -36,19 +37,10 @@ impl<T: Real> Frustum<T> {
     #[inline(always)]
     fn nearest<L: Lane<Scalar = T>>(&self, place: Vec3<L>) -> (L, Vec3<L>) {
         let place = self.axis.place(place);
-        let mut is_inside = L::ZERO.le(L::ZERO);
-        let mut best = None;
-        for slant in &self.profile {
-            let beside = slant.beside(place.distance, place.height);
-            is_inside = is_inside & !beside.is_right;
-            let (distance, normal) = best.unwrap_or((beside.distance, beside.normal));
-            let is_nearer = beside.distance.lt(distance);
-            let pick = |k: usize| L::select(is_nearer, beside.normal[k], normal[k]);
-            best = Some((L::select(is_nearer, beside.distance, distance), [pick(0), pick(1)]));
-        }
-        let (distance, [out, up]) = best.unwrap_or((L::ZERO, [L::ZERO, L::ZERO]));
-        let normal = place.outward * out + Vec3::splat(self.axis.direction) * up;
-        (L::select(is_inside, -distance, distance), Vec3::select(is_inside, -normal, normal))
+        let [base, wall, top] =
+            self.profile.each_ref().map(|slant| slant.beside(place.distance, place.height));
+        let is_inside = !base.is_right & !wall.is_right & !top.is_right;
+        top.or_nearer(wall.or_nearer(base)).about(&self.axis, &place, is_inside)
     }
 }
 
@@ -56,8 +48,7 @@ impl<T: Real> Obstacle<T> for Frustum<T> {
     /// A centre inside is pushed out through the nearest face.
     #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
-        let (distance, normal) = self.nearest(center);
-        Clearance { gap: distance - radius, arm: normal * radius }
+        Clearance::off(self.nearest(center), radius)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -21,8 +21,8 @@ use super::placement::Placement;
 use super::solid::Solid;
 use crate::contact::greatest_component;
 use crate::real::Real;
-use crate::space::Bounds;
 use crate::space::hierarchy::Hierarchy;
+use crate::space::{Bounds, joined};
 use crate::vec3::Vec3;
 
 pub use error::{FilePlace, MeshError};
@@ -191,7 +191,7 @@ impl<T: Real> Mesh<T> {
         let corners = |triangle: u32| net.corners[triangle as usize].map(|k| vertices[k as usize]);
         let hierarchy = Hierarchy::new(net.len(), |triangle| around(corners(triangle)));
         let ends = vertices.iter().map(|&vertex| [vertex, vertex]);
-        let bounds = ends.reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)]);
+        let bounds = ends.reduce(joined);
         Self {
             seams: Arc::new(seams),
             hierarchy: Arc::new(hierarchy),

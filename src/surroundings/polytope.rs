@@ -185,8 +185,7 @@ impl<T: Real> Obstacle<T> for Polytope<T> {
     /// A centre inside is pushed out through the nearest face.
     #[inline(never)]
     fn clearance<L: Lane<Scalar = T>>(&self, center: Vec3<L>, radius: L) -> Clearance<L> {
-        let (distance, normal) = self.nearest(center);
-        Clearance { gap: distance - radius, arm: normal * radius }
+        Clearance::off(self.nearest(center), radius)
     }
 
     fn contact_time(&self, flight: &FreeFlight<T>) -> Option<T> {

@@ -1,6 +1,6 @@
 //! Revolved: a profile turned about an axis, thin or closed.
 
-use super::axis::{Axis, inscribed, joined};
+use super::axis::{Axis, inscribed};
 use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, ShapeEntry};
 use super::mistake::{Mistake, direction, point};
 use super::placement::Placement;
@@ -8,6 +8,7 @@ use super::slant::Slant;
 use super::solid::Solid;
 use super::{Band, Chain, Feature};
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// What a profile makes that is turned about an axis, fixed in space.

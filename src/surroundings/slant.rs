@@ -1,10 +1,11 @@
 //! Slant: a straight line of a profile, turned about an axis.
 
-use super::axis::{Axis, joined, pi};
+use super::axis::{Axis, Place, pi};
 use super::entry::{AXIS, BASE, HEIGHT, RADIUS, TOP_RADIUS};
 use super::mistake::{Mistake, direction, not_negative, point, positive};
 use crate::lane::{Lane, Mask};
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// A line from one place of a half plane to another, each by its distance from the axis
@@ -31,6 +32,37 @@ pub(super) struct Beside<L: Lane> {
     /// Whether that is on the line's right-hand side, as seen from its first end with the
     /// axis on the left.
     pub(super) is_right: L::Mask,
+}
+
+impl<L: Lane> Beside<L> {
+    /// The same of the nearer of two lines; of the other one where both are as near.
+    #[inline(always)]
+    pub(super) fn or_nearer(self, other: Self) -> Self {
+        let is_nearer = self.distance.lt(other.distance);
+        let pick = |k: usize| L::select(is_nearer, self.normal[k], other.normal[k]);
+        Self {
+            distance: L::select(is_nearer, self.distance, other.distance),
+            normal: [pick(0), pick(1)],
+            is_right: (is_nearer & self.is_right) | (!is_nearer & other.is_right),
+        }
+    }
+
+    /// Of a place about the axis: the distance, negative inside of something solid, and the
+    /// unit normal out of it.
+    #[inline(always)]
+    pub(super) fn about(
+        &self,
+        axis: &Axis<L::Scalar>,
+        place: &Place<L>,
+        is_inside: L::Mask,
+    ) -> (L, Vec3<L>) {
+        let [out, up] = self.normal;
+        let normal = place.outward * out + Vec3::splat(axis.direction) * up;
+        (
+            L::select(is_inside, -self.distance, self.distance),
+            Vec3::select(is_inside, -normal, normal),
+        )
+    }
 }
 
 impl<T: Real> Slant<T> {

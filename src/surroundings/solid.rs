@@ -7,7 +7,7 @@ use super::{Clearance, Feature, Mesh};
 use crate::contact::FreeFlight;
 use crate::lane::Lane;
 use crate::real::Real;
-use crate::space::Bounds;
+use crate::space::{Bounds, joined};
 use crate::vec3::Vec3;
 
 /// What a sphere touches in one point at a time: the kernels' side of a shape.
@@ -83,7 +83,7 @@ pub(crate) trait Solid<T: Real>: Clone {
     fn extent(&self) -> Option<Bounds<T>> {
         let bounds = self.features().into_iter().map(|feature| feature.bounds());
         let bounds: Option<Vec<_>> = bounds.collect();
-        bounds?.into_iter().reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)])
+        bounds?.into_iter().reduce(joined)
     }
 
     /// Of many triangles: the mesh that they are of, which has its own way to find them.

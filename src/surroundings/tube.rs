@@ -1,6 +1,6 @@
 //! Tube: a thin tube or funnel, open at both ends.
 
-use super::axis::{Axis, joined};
+use super::axis::Axis;
 use super::entry::{AXIS, BASE, CENTER, HALF_HEIGHT, HEIGHT, Key, RADIUS, ShapeEntry, TOP_RADIUS};
 use super::mistake::Mistake;
 use super::placement::Placement;
@@ -8,6 +8,7 @@ use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature};
 use crate::real::Real;
+use crate::space::joined;
 use crate::vec3::Vec3;
 
 /// A thin tube fixed in space, open at both ends, touched from inside, from outside and at

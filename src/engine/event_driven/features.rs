@@ -6,7 +6,7 @@ use super::near::Image;
 use super::region::Region;
 use super::search::keep;
 use super::setting::Setting;
-use crate::contact::greatest_component;
+use crate::contact::{FreeFlight, greatest_component};
 use crate::real::Real;
 use crate::space::{Bounds, Space};
 use crate::surroundings::FeatureRef;
@@ -153,12 +153,9 @@ pub(super) fn time_to_feature<T: Real>(
         && (setting.periodic.is_none() || has_just_left(setting, &feature, center, flight.radius))
         && (flight.since > T::ZERO || !is_closing(&feature, &flight, center));
     let acceleration = setting.plan.has_field.then_some(setting.gravity);
-    let (velocity, radius) = (flight.velocity, flight.radius);
-    if is_leaving {
-        feature.hop_time(center, velocity, acceleration, radius)
-    } else {
-        feature.contact_time(center, velocity, acceleration, radius, false)
-    }
+    let Flight { velocity, radius, .. } = flight;
+    let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
+    if is_leaving { feature.hop_time(&flight) } else { feature.contact_time(&flight) }
 }
 
 /// Whether a sphere that comes from a contact with some image of a feature

@@ -2,6 +2,7 @@
 
 use crate::real::Real;
 use crate::space::cells::{Ends, Grid, Span};
+use crate::space::joined;
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -166,7 +167,7 @@ pub(super) fn span<T: Real>(
         return Span::new(lower, upper, Ends::Closed);
     }
     let points = solids.chain(centers.map(|center| [center, center]));
-    let all = points.reduce(|[a, b], [c, d]| [a.lesser(c), b.greater(d)]);
+    let all = points.reduce(joined);
     let [lower, upper] = all.unwrap_or([Vec3::ZERO, Vec3::ZERO]);
     let missing = |low: T, high: T| (least - (high - low)).greater(T::ZERO) * T::ratio(1, 2);
     let missing =

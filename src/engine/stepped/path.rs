@@ -1,5 +1,6 @@
 //! Path: where a body was within the step that has just been taken.
 
+use crate::contact::FreeFlight;
 use crate::lane::Lane;
 use crate::motion::Integrator;
 use crate::real::Real;
@@ -88,7 +89,8 @@ impl<T: Real> Path<T> {
         let center = self.center(end, end_velocity, since);
         let velocity = self.velocity(end_velocity, since);
         let acceleration = self.is_bent.then_some(self.bend);
-        let wait = feature.contact_time(center, velocity, acceleration, radius, is_leaving)?;
+        let flight = FreeFlight { center, velocity, acceleration, radius, is_leaving };
+        let wait = feature.contact_time(&flight)?;
         // One that comes back within the rounding of time rests there, and would
         // come back without end: it waits for the next step.
         let is_at_rest = is_leaving && wait <= self.duration * T::EPSILON * T::whole(256);

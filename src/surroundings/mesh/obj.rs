@@ -112,7 +112,7 @@ fn vertex(line: usize, words: &[&[u8]]) -> Result<[f64; 3], MeshError> {
     Ok([numbers[0], numbers[1], numbers[2]])
 }
 
-/// The number of a vertex from 0; there are so many up to here.
+/// The number of a vertex from 0, of those up to here.
 fn corner(line: usize, word: &[u8], vertices: usize) -> Result<u32, MeshError> {
     let own = word.split(|&byte| byte == b'/').next().unwrap_or(word);
     let parsed = str::from_utf8(own).ok().and_then(|own| own.parse::<i64>().ok());
