@@ -53,7 +53,7 @@ const GAS: usize = 4_000;
 /// How often the kernels go over their columns in one unit, and the length of these.
 const SPHERES: usize = 960;
 
-/// A way to do so many units of work, which says how many it has done.
+/// Does a number of units of work, and returns how many it has done.
 type Work = Box<dyn Fn(u64) -> Result<u64, Box<dyn Error>>>;
 
 /// One row of the table.
@@ -103,7 +103,7 @@ fn version() -> Result<String, Box<dyn Error>> {
     Ok(String::from_utf8(output.stdout)?.trim().to_owned())
 }
 
-/// The instructions of a process that does so many units of a row, and the units done.
+/// The instructions of a process that does a number of units of a row, and the units done.
 fn counted(index: usize, units: u64) -> Result<[u64; 2], Box<dyn Error>> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])

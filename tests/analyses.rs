@@ -301,7 +301,7 @@ fn enskog_flights(mean: f64, width: f64, bins: usize, of_paths: bool) -> Vec<f64
     (0..bins).map(density).collect()
 }
 
-/// Within what so many flights tell: the theory leaves out that a body shields the one that
+/// Within what this number of flights tells: the theory leaves out that a body shields the one that
 /// it has just met, which more flights would show.
 #[test]
 fn flights_are_those_of_enskog() {
@@ -318,7 +318,7 @@ fn flights_are_those_of_enskog() {
         let (far, at_random) = (off(&density, &error, &law), off(&density, &error, &random));
         assert!(far < 1.6, "{kind}: {far}");
         println!("{kind}: {far:.2}, at random {at_random:.2}");
-        // Times are those of collisions at random too, as far as so many flights tell.
+        // Times are those of collisions at random too, as far as this number of flights tells.
         assert!(!of_paths || at_random > 2.0 * far, "{kind}: {at_random}");
     }
 }

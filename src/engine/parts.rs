@@ -4,7 +4,7 @@ use super::account::PartSum;
 use crate::real::Real;
 use crate::scene::Scene;
 
-/// Parts without a name are counted apart in scenes of so many parts at most: of more, each
+/// Parts without a name are counted apart in scenes of at most this many parts: of more, each
 /// would have its sums far from the others' in memory.
 const MOST_UNNAMED: usize = 64;
 

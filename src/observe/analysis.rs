@@ -56,6 +56,7 @@ use radial::RadialDistribution;
 use speeds::SpeedDistribution;
 use structure::StructureFactor;
 pub use tally::Figure;
+use tally::{Sums, Tally, columns};
 
 /// The bodies at one time.
 #[derive(Clone, Copy, Debug)]
@@ -362,6 +363,12 @@ impl Bins {
     /// The middle of a bin.
     fn middle(&self, bin: usize) -> f64 {
         self.from + self.width * (bin as f64 + 0.5)
+    }
+
+    /// What a tally of them has in each, over its width, and the errors: two columns.
+    fn density(&self, tally: &Tally) -> (Vec<Option<f64>>, Vec<Option<f64>>) {
+        let of = |sums: &Sums, bin| Some(sums.mean(bin)? / self.width);
+        columns(&tally.figures(self.count, "density", of))
     }
 
     /// The middles of all, as a column.

@@ -207,7 +207,7 @@ impl Series {
         matches!(self.mark, Mark::LineAndMarkers | Mark::Markers)
     }
 
-    /// The marker of a point, as a polygon: of a disc with so many corners that none is seen.
+    /// The marker of a point, as a polygon: of a disc with 16 corners, too many to see.
     fn marker<C, B: DrawingBackend>(&self, place: C) -> MarkerAt<C, B> {
         let corners = match self.shape {
             Shape::Disc => (0..16)

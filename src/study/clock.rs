@@ -21,7 +21,7 @@ const SAMPLE: f64 = 0.005;
 /// What runs so long is a sample even if it is the first: nothing has to warm up, seconds.
 const LONG: f64 = 0.1;
 
-/// Of the rounds asked for, so many times as many are run at most.
+/// The most rounds that are run, over those asked for.
 const MOST_ROUNDS: usize = 3;
 
 /// Up to this share of itself on either side a median is as good as known.
@@ -127,7 +127,7 @@ impl Timing {
 }
 
 /// The greatest rank, from 0, at or below which the median of a distribution is with a
-/// probability of no more than 1/40, among so many samples of it; 0 at least.
+/// probability of no more than 1/40, among that number of samples; 0 at least.
 fn rank_below_median(samples: usize) -> usize {
     let len = samples as f64;
     if samples > 100 {

@@ -13,7 +13,7 @@ use crate::surroundings::Features;
 const MOST_BODIES: usize = 128;
 
 /// The most contacts that a step of a scene in a lane can have: the engine alone puts off
-/// to the next step what comes after so many rounds.
+/// to the next step what comes after that number of rounds.
 const MOST_CONTACTS: usize = 10_000;
 
 /// The shape of the scenes in lanes. All workers read it, none writes it.

@@ -8,15 +8,15 @@ use core::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::radial::for_each_pair_within;
-use super::tally::{Tally, columns};
+use super::tally::Tally;
 use super::{Bins, Chosen, Findings, Members, Moment, Unfit};
 use crate::space::Space;
 use crate::vec3::Vec3;
 
-/// How many bins, if nobody chooses.
+/// How many bins, by default.
 const BINS: usize = 100;
 
-/// How far neighbours are, in units of `ρ^(−1/3)`, if nobody chooses: between the first and
+/// How far neighbours are, in units of `ρ^(−1/3)`, by default: between the first and
 /// the second shell of fcc and hcp (1.12 and 1.59), and behind the second of bcc (1.26).
 const REACH: f64 = 1.4;
 
@@ -112,10 +112,8 @@ impl BondOrder {
     }
 
     pub fn findings(&self) -> Findings {
-        let Bins { width, count, .. } = self.bins;
-        let density =
-            self.tally.figures(count, "density", |sums, bin| Some(sums.mean(bin)? / width));
-        let (density, error) = columns(&density);
+        let count = self.bins.count;
+        let (density, error) = self.bins.density(&self.tally);
         let figure = |(k, name): (usize, &&'static str)| {
             self.tally.figure(name, |sums| sums.mean(count + k))
         };

@@ -13,10 +13,10 @@ use crate::engine::{Event, Partner};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// How many bins, if nobody chooses.
+/// How many bins, by default.
 const BINS: usize = 100;
 
-/// From how many flights the range is taken, if nobody chooses.
+/// From how many flights the range is taken, by default.
 const FIRST: usize = 1000;
 
 /// How many of their means it has.

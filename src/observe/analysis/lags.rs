@@ -59,7 +59,7 @@ impl Lags {
         Ok(Self { members: chosen.only(), longest, levels: Vec::new(), tally })
     }
 
-    /// The channel of the values of a lag of so many looks of a level, and behind it that
+    /// The channel of the values of a lag of a number of looks of a level, and behind it that
     /// of the times. Channel 0 is the lag of 0.
     fn channel(level: usize, lag: usize) -> usize {
         1 + 2 * (level * KEPT + lag - 1)

@@ -11,10 +11,10 @@ use super::{Bins, Chosen, Findings, Members, Moment, Unfit};
 use crate::bodies::{Bodies, PerBody};
 use crate::space::{PeriodicBox, Space, for_each_near_pair};
 
-/// How many bins, if nobody chooses.
+/// How many bins, by default.
 const BINS: usize = 200;
 
-/// How many diameters it goes to, if nobody chooses and the box is large enough.
+/// How many diameters it goes to, by default, if the box is large enough.
 const DIAMETERS: f64 = 3.0;
 
 /// Up to how many diameters `g` is extrapolated from to contact.

@@ -6,14 +6,14 @@ use core::f64::consts::PI;
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
-use super::tally::{Tally, columns};
+use super::tally::Tally;
 use super::{Bins, Chosen, Findings, Members, Moment, Unfit};
 use crate::observe::{Momentum, Temperature, total_mass};
 
-/// How many bins, if nobody chooses.
+/// How many bins, by default.
 const BINS: usize = 100;
 
-/// How far they go, if nobody chooses: of 10⁵ bodies one is faster.
+/// How far they go, by default: of 10⁵ bodies one is faster.
 const FASTEST: f64 = 5.0;
 
 /// The speed distribution under way. Behind the channels of the bins are those of `c²` and
@@ -68,10 +68,8 @@ impl SpeedDistribution {
     }
 
     pub fn findings(&self) -> Findings {
-        let Bins { width, count, .. } = self.bins;
-        let density =
-            self.tally.figures(count, "density", |sums, bin| Some(sums.mean(bin)? / width));
-        let (density, error) = columns(&density);
+        let count = self.bins.count;
+        let (density, error) = self.bins.density(&self.tally);
         let law = |c: f64| (2.0 / PI).sqrt() * c * c * (-0.5 * c * c).exp();
         // The mean over a bin, by Simpson's rule.
         let maxwell = (0..count).map(|bin| {

@@ -11,10 +11,10 @@ use super::tally::{Tally, columns};
 use super::{Bins, Chosen, Findings, Members, Moment, Unfit};
 use crate::trigonometry::sin_cos;
 
-/// How many bins, if nobody chooses.
+/// How many bins, by default.
 const BINS: usize = 100;
 
-/// How far wave numbers go, over the diameter of the smallest body, if nobody chooses.
+/// How far wave numbers go, over the diameter of the smallest body, by default.
 const DIAMETERS: f64 = 20.0;
 
 /// How many directions of a wave number are looked at, at most.
