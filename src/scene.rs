@@ -34,6 +34,7 @@ mod builtin;
 mod check;
 mod check_bodies;
 mod checked;
+mod compiled;
 mod description;
 #[cfg(feature = "files")]
 mod dilated;
@@ -70,6 +71,7 @@ pub use builder::SceneBuilder;
 #[cfg(feature = "files")]
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use checked::Scene;
+pub use compiled::Buildable;
 pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;

@@ -288,6 +288,10 @@ impl<T: Compiled> Change<'_, T> {
     /// If a body does not exist, is put into another one or out of its container, if a figure
     /// cannot be, or if no body is left: the world is then as it was before the change.
     pub fn apply(self) -> Result<(), ChangeError> {
+        T::apply(self)
+    }
+
+    pub(super) fn take_effect(self) -> Result<(), ChangeError> {
         let Self { target, mut bodies, gravity, mut placed, removed, mut handles, .. } = self;
         if let Some(mistake) = self.mistake {
             return Err(mistake);

@@ -9,6 +9,7 @@ use super::assignment::{Assignment, Refused};
 use super::builtin;
 use super::check;
 use super::checked::Scene;
+use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
 use super::fixed;
@@ -267,7 +268,12 @@ impl SceneFile {
     ///
     /// # Errors
     /// If a value, or what the values make together, is not possible.
-    pub fn build<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+    pub fn build<T: Buildable>(&self) -> Result<Scene<T>, SceneError> {
+        T::of_file(self)
+    }
+
+    /// What the scene is asked to be, in a precision.
+    pub(super) fn description<T: Real>(&self) -> Result<Description<T>, SceneError> {
         let origin = self.origin();
         let mut asked = Description::<T>::new(self.name.clone(), origin.clone());
         asked.engine = self.engine;
@@ -307,7 +313,7 @@ impl SceneFile {
             };
             asked.entries.push(entry);
         }
-        Scene::new(asked)
+        Ok(asked)
     }
 
     /// What the parts of the surroundings are called, in the order of the file.
