@@ -2,7 +2,7 @@
 
 use super::frame::{Frame, Framed};
 use super::interface::{EventEngine, StepEngine};
-use super::{EngineError, Execution, batch, event_driven, stepped};
+use super::{EngineError, Execution, batch, event_driven, sensed, stepped};
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
 use crate::real::Real;
@@ -64,10 +64,13 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn EventEngine<Self>>, EngineError> {
-                let driver = |scene| event_driven::Driver::new(scene, execution);
+                let driver = |scene| -> Result<Box<dyn EventEngine<Self>>, EngineError> {
+                    Ok(Box::new(event_driven::Driver::new(scene, execution)?))
+                };
+                let start = |scene| sensed::event_driven(scene, driver);
                 Ok(match Frame::of(&scene) {
-                    None => Box::new(driver(scene)?),
-                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
+                    None => start(scene)?,
+                    Some(frame) => Box::new(Framed { engine: start(frame.enter(scene))?, frame }),
                 })
             }
 
@@ -75,10 +78,13 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn StepEngine<Self>>, EngineError> {
-                let driver = |scene| stepped::Driver::new(scene, execution);
+                let driver = |scene| -> Result<Box<dyn StepEngine<Self>>, EngineError> {
+                    Ok(Box::new(stepped::Driver::new(scene, execution)?))
+                };
+                let start = |scene| sensed::stepped(scene, driver);
                 Ok(match Frame::of(&scene) {
-                    None => Box::new(driver(scene)?),
-                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
+                    None => start(scene)?,
+                    Some(frame) => Box::new(Framed { engine: start(frame.enter(scene))?, frame }),
                 })
             }
 
