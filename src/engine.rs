@@ -12,6 +12,7 @@ mod interface;
 mod later;
 mod parts;
 mod plan;
+mod sensed;
 #[cfg(feature = "files")]
 mod snapshot;
 mod stepped;

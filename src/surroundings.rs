@@ -28,6 +28,7 @@ mod facet;
 mod features;
 mod fixed_sphere;
 mod frustum;
+mod gate;
 mod heightfield;
 mod hull;
 mod mesh;
@@ -40,6 +41,7 @@ mod plane;
 mod polytope;
 mod revolved;
 mod rod;
+mod sensor;
 mod slant;
 mod solid;
 mod torus;
@@ -49,6 +51,7 @@ mod tube;
 #[cfg(feature = "files")]
 pub(crate) use entry::{FilePath, Key, Meaning, NO_VECTOR, ShapeEntry, Value};
 pub(crate) use features::{FeatureRef, Features};
+pub(crate) use gate::Gate;
 pub(crate) use mistake::{Mistake, corners, finite, is_positive, positive};
 pub(crate) use placement::Placement;
 pub(crate) use solid::ShapeKind;
@@ -57,6 +60,7 @@ pub use band::Band;
 pub use chain::Chain;
 pub use facet::Facet;
 pub use frustum::Frustum;
+pub use gate::Passages;
 pub use mesh::{FilePlace, MeshError, MeshReport};
 pub use polytope::Polytope;
 pub use rod::Rod;
@@ -98,6 +102,8 @@ solids! {
         torus::Torus,
         /// A profile turned about an axis: thin, solid or hollow.
         revolved::Revolved,
+        /// A part that only counts.
+        sensor::Sensor,
     }
     features {
         /// A half space, or a face of a container.
@@ -122,6 +128,27 @@ solids! {
         Torus,
         /// Lines of a profile turned about an axis, on one side of which is something solid.
         Chain,
+    }
+}
+
+/// The kinds of shape that a scene file names.
+#[cfg(feature = "files")]
+pub(crate) fn shape_kinds() -> impl Iterator<Item = &'static ShapeKind> {
+    ALL_KINDS.iter().filter(|kind| !kind.keys.is_empty())
+}
+
+impl<T: Real> Shape<T> {
+    /// Of a sensor, its surface by its sides.
+    pub(crate) fn sensed(&self) -> Option<Gate<T>> {
+        match self {
+            Self::Sensor(sensor) => sensor.gate(),
+            _ => None,
+        }
+    }
+
+    /// Whether it only counts.
+    pub(crate) fn is_sensor(&self) -> bool {
+        matches!(self, Self::Sensor(_))
     }
 }
 

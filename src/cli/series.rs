@@ -33,7 +33,7 @@ impl AskedSeries {
         file: &SceneFile,
         duration: f64,
     ) -> Result<Option<Self>, Failure> {
-        let all = SeriesColumn::all(file.part_names());
+        let all = SeriesColumn::all(file.parts());
         let columns = match file.series_columns() {
             None => all,
             Some(names) => names

@@ -15,6 +15,7 @@ use carom::observe::{
 };
 use carom::real::Real;
 use carom::scene::{EngineKind, Impact, Scene};
+use carom::surroundings::Passages;
 use carom::vec3::Vec3;
 
 use super::analyses::Found;
@@ -145,13 +146,16 @@ pub struct PartSummary {
     pub collisions: u64,
     /// Its impulse on the bodies, mass × length per time.
     pub impulse: [f64; 3],
+    /// How often centres passed through it, of a sensor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passages: Option<Passages>,
 }
 
 impl PartSummary {
     fn new(totals: &PartTotals, names: &[Option<String>]) -> Self {
-        let PartTotals { part, collisions, impulse, .. } = *totals;
+        let PartTotals { part, collisions, impulse, passages, .. } = *totals;
         let name = names.get(part as usize).cloned().flatten();
-        Self { index: part, name, collisions, impulse }
+        Self { index: part, name, collisions, impulse, passages }
     }
 }
 

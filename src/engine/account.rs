@@ -87,7 +87,14 @@ impl PartSum {
     pub fn totals(&self, part: u32) -> PartTotals {
         let impulse = self.impulse.each_ref().map(ExactSum::value);
         let normal_impulse = self.normal.value();
-        PartTotals { part, collisions: self.collisions, impulse, normal_impulse, area: None }
+        PartTotals {
+            part,
+            collisions: self.collisions,
+            impulse,
+            normal_impulse,
+            area: None,
+            passages: None,
+        }
     }
 
     fn merge(&mut self, other: &Self) {

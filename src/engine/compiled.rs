@@ -4,7 +4,7 @@ use super::frame::{Frame, Framed};
 use super::interface::{EventEngine, StepEngine};
 use super::{
     Batch, BatchError, Change, ChangeError, EngineError, Event, Execution, batch, event_driven,
-    stepped,
+    sensed, stepped,
 };
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
@@ -93,10 +93,13 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn EventEngine<Self>>, EngineError> {
-                let driver = |scene| event_driven::Driver::new(scene, execution);
+                let driver = |scene| -> Result<Box<dyn EventEngine<Self>>, EngineError> {
+                    Ok(Box::new(event_driven::Driver::new(scene, execution)?))
+                };
+                let start = |scene| sensed::event_driven(scene, driver);
                 Ok(match Frame::of(&scene) {
-                    None => Box::new(driver(scene)?),
-                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
+                    None => start(scene)?,
+                    Some(frame) => Box::new(Framed { engine: start(frame.enter(scene))?, frame }),
                 })
             }
 
@@ -104,10 +107,13 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn StepEngine<Self>>, EngineError> {
-                let driver = |scene| stepped::Driver::new(scene, execution);
+                let driver = |scene| -> Result<Box<dyn StepEngine<Self>>, EngineError> {
+                    Ok(Box::new(stepped::Driver::new(scene, execution)?))
+                };
+                let start = |scene| sensed::stepped(scene, driver);
                 Ok(match Frame::of(&scene) {
-                    None => Box::new(driver(scene)?),
-                    Some(frame) => Box::new(Framed { engine: driver(frame.enter(scene))?, frame }),
+                    None => start(scene)?,
+                    Some(frame) => Box::new(Framed { engine: start(frame.enter(scene))?, frame }),
                 })
             }
 

@@ -92,13 +92,17 @@ impl<T: Real> Frame<T> {
 
     /// Bodies in the scene's own coordinates and units.
     fn leave(&self, mut bodies: Bodies<T>) -> Bodies<T> {
-        let length = factor::<T>(self.length);
-        let origin = self.origin.to_array();
-        for (column, origin) in bodies.position.iter_mut().zip(origin) {
-            column.iter_mut().for_each(|x| *x = *x * length + origin);
-        }
+        self.leave_centers(&mut bodies.position);
         self.scale_bodies(&mut bodies, 1);
         bodies.left_by_world()
+    }
+
+    /// Centres in the scene's own coordinates and units.
+    fn leave_centers(&self, centers: &mut Columns3<T>) {
+        let length = factor::<T>(self.length);
+        for (column, origin) in centers.iter_mut().zip(self.origin.to_array()) {
+            column.iter_mut().for_each(|x| *x = *x * length + origin);
+        }
     }
 
     /// Scales all but positions by the units or, with -1, by their inverses.
@@ -239,12 +243,12 @@ fn scale_column<T: Real>(column: &mut Column<T>, exponent: i32) {
 
 /// An engine that computes in a frame of its own.
 #[derive(Debug)]
-pub(super) struct Framed<T, E> {
-    pub engine: E,
+pub(super) struct Framed<T, E: ?Sized> {
     pub frame: Frame<T>,
+    pub engine: Box<E>,
 }
 
-impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
+impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Framed<T, E> {
     fn plan(&self) -> &Plan {
         self.engine.plan()
     }
@@ -305,7 +309,7 @@ impl<T: Real, E: Engine<T>> Engine<T> for Framed<T, E> {
     }
 }
 
-impl<T: Real, E: StepEngine<T>> StepEngine<T> for Framed<T, E> {
+impl<T: Real, E: StepEngine<T> + ?Sized> StepEngine<T> for Framed<T, E> {
     fn dt(&self) -> T {
         scaled_real(self.engine.dt(), self.frame.time)
     }
@@ -316,6 +320,12 @@ impl<T: Real, E: StepEngine<T>> StepEngine<T> for Framed<T, E> {
 
     fn steps(&self) -> u64 {
         self.engine.steps()
+    }
+
+    fn centers(&self) -> Columns3<T> {
+        let mut centers = self.engine.centers();
+        self.frame.leave_centers(&mut centers);
+        centers
     }
 
     fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>) {
@@ -329,7 +339,7 @@ impl<T: Real, E: StepEngine<T>> StepEngine<T> for Framed<T, E> {
     }
 }
 
-impl<T: Real, E: EventEngine<T>> EventEngine<T> for Framed<T, E> {
+impl<T: Real, E: EventEngine<T> + ?Sized> EventEngine<T> for Framed<T, E> {
     fn advance_to(
         &mut self,
         time: f64,

@@ -9,7 +9,7 @@ use super::account::{Effort, Totals};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, Snapshot};
 use super::{EngineError, Listener, PartTotals, Plan};
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -62,6 +62,9 @@ pub trait StepEngine<T: Real>: Engine<T> {
 
     /// Steps taken.
     fn steps(&self) -> u64;
+
+    /// Where the bodies are, in the scene's order.
+    fn centers(&self) -> Columns3<T>;
 
     /// Takes steps, and reports the collisions of each in their order.
     fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>);

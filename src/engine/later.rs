@@ -12,7 +12,7 @@ use super::interface::{Engine, EventEngine, StepEngine, Stretch};
 #[cfg(feature = "files")]
 use super::snapshot::{Misfit, SavedLater, SavedStart, Snapshot};
 use super::{Collisions, EngineError, Event, Listener, PartTotals, Plan};
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -167,6 +167,10 @@ impl<T: Real, E: StepEngine<T> + ?Sized> StepEngine<T> for Later<T, E> {
 
     fn steps(&self) -> u64 {
         self.elapsed.steps + self.engine.steps()
+    }
+
+    fn centers(&self) -> Columns3<T> {
+        self.engine.centers()
     }
 
     fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>) {

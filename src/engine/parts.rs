@@ -3,6 +3,7 @@
 use super::account::PartSum;
 use crate::real::Real;
 use crate::scene::Scene;
+use crate::surroundings::Passages;
 
 /// Parts without a name are counted apart in scenes of at most this many parts: of more, each
 /// would have its sums far from the others' in memory.
@@ -26,13 +27,13 @@ pub(super) struct Counted {
 }
 
 impl Counted {
-    /// Of a scene: parts with a name, and all parts if they are few.
+    /// Of a scene: parts with a name, sensors, and all parts if they are few.
     pub fn of<T: Real>(scene: &Scene<T>) -> Self {
         let len = scene.surroundings.len();
         let (mut counters, mut parts) = (Vec::with_capacity(len), Vec::new());
         for (part, shape) in (0..).zip(&scene.surroundings) {
             let is_named = scene.part_names.get(counters.len()).is_some_and(Option::is_some);
-            let is_counted = is_named || len <= MOST_UNNAMED;
+            let is_counted = is_named || shape.is_sensor() || len <= MOST_UNNAMED;
             counters.push(is_counted.then_some(Counter { index: parts.len(), is_named }));
             if is_counted {
                 parts.push((part, shape.area().map(T::to_f64)));
@@ -87,6 +88,8 @@ pub struct PartTotals {
     pub normal_impulse: f64,
     /// The area of its surface, length², of both sides of what is thin; `None` without end.
     pub area: Option<f64>,
+    /// How often centres have passed through it, of a [sensor](crate::surroundings::Sensor).
+    pub passages: Option<Passages>,
 }
 
 impl PartTotals {
@@ -98,6 +101,10 @@ impl PartTotals {
             impulse: core::array::from_fn(|axis| before.impulse[axis] + self.impulse[axis]),
             normal_impulse: before.normal_impulse + self.normal_impulse,
             area: self.area,
+            passages: self.passages.map(|mut passages| {
+                passages += before.passages.unwrap_or_default();
+                passages
+            }),
         }
     }
 
@@ -116,6 +123,9 @@ impl PartTotals {
             impulse: core::array::from_fn(|axis| self.impulse[axis] - earlier.impulse[axis]),
             normal_impulse: self.normal_impulse - earlier.normal_impulse,
             area: self.area,
+            passages: self
+                .passages
+                .map(|passages| passages.since(earlier.passages.unwrap_or_default())),
         }
     }
 }

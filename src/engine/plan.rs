@@ -88,6 +88,8 @@ pub struct Plan {
     pub features: usize,
     /// Whether triangles of meshes are among them.
     pub has_meshes: bool,
+    /// How many sensors look at flights.
+    pub sensors: usize,
     /// Which contact law collisions follow.
     pub surface: Surface,
     /// Whether collisions read and change spins.
@@ -157,6 +159,7 @@ impl Plan {
             has_pairs: scene.encounters == Encounters::All && bodies.len() > 1,
             features,
             has_meshes: features > 0 && scene.surroundings.iter().any(|s| s.mesh().is_some()),
+            sensors: scene.surroundings.iter().filter(|shape| shape.is_sensor()).count(),
             surface: scene.surface,
             changes_spins,
             has_radii: matches!(bodies.radius, PerBody::Each(_)),

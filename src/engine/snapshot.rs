@@ -10,6 +10,7 @@ use super::account::Account;
 use super::event_driven::EventState;
 use super::handles::Handles;
 use super::later::Elapsed;
+use super::sensed::Seen;
 use super::stepped::StepState;
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
@@ -42,6 +43,8 @@ pub struct Snapshot {
     /// Of a world that was changed: what had elapsed before, the time that was asked for,
     /// and what it went on from.
     pub(super) later: Option<Box<SavedLater>>,
+    /// What sensors have seen, of a scene that has any.
+    pub(super) seen: Option<Box<Seen>>,
 }
 
 /// What a snapshot of a changed world has besides.
@@ -56,7 +59,7 @@ pub(super) struct SavedLater {
 impl Snapshot {
     /// The state of an engine that was not changed on the way.
     pub(super) fn of(account: &Account, state: State) -> Self {
-        Self { account: account.clone(), state, later: None }
+        Self { account: account.clone(), state, later: None, seen: None }
     }
 }
 

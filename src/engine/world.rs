@@ -13,6 +13,8 @@ use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
 use crate::space::SphereTree;
+#[cfg(feature = "files")]
+use crate::surroundings::Shape;
 use crate::vec3::Vec3;
 
 /// A scene in motion, by the engine that it names.
@@ -77,6 +79,9 @@ impl<T: Compiled> World<T> {
         snapshot: &Snapshot,
     ) -> Result<Self, EngineError> {
         let misfit = |Misfit(what)| EngineError::Snapshot(what);
+        if snapshot.seen.is_some() != scene.surroundings.iter().any(Shape::is_sensor) {
+            return Err(misfit(Misfit("sensors")));
+        }
         let mut world = match &snapshot.later {
             None => Self::new(scene, execution)?,
             Some(later) => {

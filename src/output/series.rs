@@ -54,7 +54,7 @@ macro_rules! columns {
 }
 
 /// The columns of counts.
-const COUNTS: [&str; 3] = ["pairs", "surroundings", "collisions"];
+const COUNTS: [&str; 5] = ["pairs", "surroundings", "collisions", "inward", "outward"];
 
 /// What a column of a part is called, behind the name of the part.
 const PART_COLUMNS: &[(&str, PartFigure)] = columns! {
@@ -68,6 +68,17 @@ const PART_COLUMNS: &[(&str, PartFigure)] = columns! {
     "pressure": |now, since| {
         let (before, elapsed) = since?;
         Some(now.since(before).normal_impulse / (elapsed * now.area?))
+    },
+};
+
+/// The same of a sensor.
+const SENSOR_COLUMNS: &[(&str, PartFigure)] = columns! {
+    "inward": |now, _| Some(now.passages?.inward as f64),
+    "outward": |now, _| Some(now.passages?.outward as f64),
+    "flow": |now, since| {
+        let (before, elapsed) = since?;
+        let passages = now.since(before).passages?;
+        Some((passages.inward as f64 - passages.outward as f64) / elapsed)
     },
 };
 
@@ -124,17 +135,20 @@ impl SeriesColumn {
     /// All columns, and those of parts with these names, if they have any, in the order of
     /// the scene: `NAME.collisions` and `NAME.impulse_x` since the start, `NAME.force_x` since
     /// the row before, on the bodies; and so `y` and `z`; `NAME.pressure`, normal impulse over
-    /// time and area, of what has an end.
+    /// time and area, of what has an end. A part that is said to be a sensor has
+    /// `NAME.inward` and `NAME.outward`, the passages since the start, and `NAME.flow`, those
+    /// inward less those outward per time since the row before.
     ///
     /// ```
     /// use carom::output::SeriesColumn;
-    /// let columns = SeriesColumn::all(["floor".into(), None]);
+    /// let columns = SeriesColumn::all([(Some("floor"), false), (None, false)]);
     /// assert_eq!(columns.last().map(SeriesColumn::name), Some("floor.pressure"));
     /// ```
     #[must_use]
-    pub fn all<'a>(part_names: impl IntoIterator<Item = Option<&'a str>>) -> Vec<Self> {
-        let of_part = |(part, name): (u32, Option<&str>)| {
-            let columns = PART_COLUMNS.iter().filter_map(move |(column, figure)| {
+    pub fn all<'a>(parts: impl IntoIterator<Item = (Option<&'a str>, bool)>) -> Vec<Self> {
+        let of_part = |(part, (name, is_sensor)): (u32, (Option<&str>, bool))| {
+            let columns = if is_sensor { SENSOR_COLUMNS } else { PART_COLUMNS };
+            let columns = columns.iter().filter_map(move |(column, figure)| {
                 let name = format!("{}.{column}", name?);
                 Some(Self::new(name.into(), Figure::OfPart(part, *figure), column))
             });
@@ -143,7 +157,7 @@ impl SeriesColumn {
         let whole = COLUMNS
             .iter()
             .map(|(name, figure)| Self::new((*name).into(), Figure::Of(*figure), name));
-        whole.chain((0..).zip(part_names).flat_map(of_part)).collect()
+        whole.chain((0..).zip(parts).flat_map(of_part)).collect()
     }
 
     fn new(name: Cow<'static, str>, figure: Figure, kind: &str) -> Self {

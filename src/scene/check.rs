@@ -38,6 +38,10 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
         let entry = format!("surroundings[{index}]");
         let shape = &given.rounded;
         shape.check().map_err(|mistake| origin.error_in(&entry, mistake))?;
+        if is_periodic && shape.is_sensor() {
+            let reason = "a sensor counts in open space only; leave out one of them";
+            return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
+        }
         if is_periodic && shape.bounds().is_none() {
             let what = if shape.is_container() { "container" } else { shape.name() };
             let reason = if shape.is_container() || shape.name() == "plane" {

@@ -316,19 +316,20 @@ impl SceneFile {
         Ok(asked)
     }
 
-    /// What the parts of the surroundings are called, in the order of the file.
+    /// What the parts of the surroundings are called, in the order of the file, and whether
+    /// they are sensors.
     ///
     /// ```
     /// use carom::SceneFile;
     ///
     /// let text = "[[surroundings]]\nshape = \"plane\"\nname = \"floor\"";
     /// let file = SceneFile::parse("named", text)?;
-    /// let names: Vec<_> = file.part_names().collect();
-    /// assert_eq!(names, [Some("floor")]);
+    /// let parts: Vec<_> = file.parts().collect();
+    /// assert_eq!(parts, [(Some("floor"), false)]);
     /// # Ok::<(), carom::SceneError>(())
     /// ```
-    pub fn part_names(&self) -> impl Iterator<Item = Option<&str>> {
-        self.raw.surroundings.iter().map(|raw| raw.name.as_deref())
+    pub fn parts(&self) -> impl Iterator<Item = (Option<&str>, bool)> {
+        self.raw.surroundings.iter().map(|raw| (raw.name.as_deref(), raw.sensor))
     }
 
     /// The files that the scene is read from besides its own.

@@ -6,7 +6,7 @@ use super::error::{Problem, SceneError};
 use super::origin::Origin;
 use super::raw::{KEYS, Number, RawRotation, RawSurroundings, Vector};
 use crate::surroundings::{
-    Mistake, NO_VECTOR, Placement, SHAPE_KINDS, Shape, ShapeKind, finite, positive,
+    Mistake, NO_VECTOR, Placement, Sensor, Shape, ShapeKind, finite, positive, shape_kinds,
 };
 use crate::vec3::Vec3;
 
@@ -31,12 +31,13 @@ pub(super) fn shape(
     }
     read(&raw.values.in_folder(folder))
         .and_then(|shape| placed(shape, raw))
+        .map(|shape| if raw.sensor { Sensor::new(shape).into() } else { shape })
         .map_err(|mistake| origin.error_in(&entry, mistake))
 }
 
 /// The names of all shapes, with an "or" before the last.
 fn shapes() -> String {
-    let names = SHAPE_KINDS.iter().flat_map(ShapeKind::names);
+    let names = shape_kinds().flat_map(ShapeKind::names);
     let names: Vec<_> = names.map(|name| format!("\"{name}\"")).collect();
     let names = names.join(", ");
     names.rsplit_once(", ").map_or(names.clone(), |(first, last)| format!("{first} or {last}"))

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, inscribed, pi};
 use super::entry::{INSIDE, Key, Meaning, RADIUS, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, point, positive};
 use super::piece::Piece;
 use super::pieced::Pieced;
@@ -184,6 +185,10 @@ impl<T: Real> Solid<T> for Capsule<T> {
     fn placed(&self, at: &Placement<T>) -> Self {
         let ends = self.ends.map(|end| at.point(end));
         Self { ends, radius: at.length(self.radius), inside: self.inside }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::closed(|inside| Self { inside, ..*self }.features()))
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

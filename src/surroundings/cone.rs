@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, inscribed, pi};
 use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, Meaning, RADIUS, ShapeEntry, TOP_RADIUS};
+use super::gate::Gate;
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
 use super::slant::{Slant, check_slanted};
@@ -202,6 +203,10 @@ impl<T: Real> Solid<T> for Cone<T> {
             endless => endless,
         };
         Self { axis: self.axis.placed(at), extent, inside: self.inside }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::closed(|inside| Self { inside, ..*self }.features()))
     }
 
     fn is_container(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::entry::{INSIDE, Key, Meaning, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, corners};
 use super::piece::Piece;
 use super::pieced::Pieced;
@@ -281,6 +282,10 @@ impl<T: Real> Solid<T> for Cuboid<T> {
         let middle = at.point(self.middle());
         let rotation = Some(self.rotation.map_or(turn, |rotation| turn * rotation));
         Self { lower: middle - half, upper: middle + half, rotation, ..*self }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::closed(|inside| Self { inside, ..*self }.features()))
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

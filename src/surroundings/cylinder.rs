@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, inscribed, pi};
 use super::entry::{AXIS, CENTER, HALF_HEIGHT, HEIGHT, INSIDE, Key, RADIUS, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
 use super::solid::Solid;
@@ -137,6 +138,10 @@ impl<T: Real> Solid<T> for Cylinder<T> {
             height: self.height.map(|height| at.length(height)),
             inside: self.inside,
         }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::closed(|inside| Self { inside, ..*self }.features()))
     }
 
     fn is_container(&self) -> bool {

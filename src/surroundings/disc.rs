@@ -2,11 +2,12 @@
 
 use super::axis::Axis;
 use super::entry::{AXIS, CENTER, Key, Meaning, RADIUS, ShapeEntry};
+use super::gate::{Gate, Opening};
 use super::mistake::{Mistake, direction, not_negative, point, positive};
 use super::placement::Placement;
 use super::slant::Slant;
 use super::solid::Solid;
-use super::{Band, Feature};
+use super::{Band, Feature, Plane};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -111,6 +112,12 @@ impl<T: Real> Solid<T> for Disc<T> {
 
     fn area(&self) -> Option<T> {
         Some(Slant::new([self.hole_radius, T::ZERO], [self.radius, T::ZERO]).area() * T::whole(2))
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        let Axis { center, direction } = self.axis;
+        let opening = Opening::Ring([self.hole_radius, self.radius], center);
+        Some(Gate::flat(Plane { point: center, normal: direction }, Some(opening)))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

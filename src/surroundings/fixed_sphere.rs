@@ -2,6 +2,7 @@
 
 use super::axis::pi;
 use super::entry::{CENTER, INSIDE, Key, RADIUS, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, point, positive};
 use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
@@ -150,6 +151,10 @@ impl<T: Real> Solid<T> for FixedSphere<T> {
 
     fn placed(&self, at: &Placement<T>) -> Self {
         Self { center: at.point(self.center), radius: at.length(self.radius), inside: self.inside }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::closed(|inside| Self { inside, ..*self }.features()))
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

@@ -1,6 +1,7 @@
 //! Plane: a half space of solid.
 
 use super::entry::{Key, Meaning, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, direction, point};
 use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
@@ -100,6 +101,10 @@ impl<T: Real> Solid<T> for Plane<T> {
 
     fn features(&self) -> Vec<Feature<T>> {
         vec![(*self).into()]
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::flat(*self, None))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, inscribed};
 use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, direction, point};
 use super::placement::Placement;
 use super::slant::Slant;
@@ -271,6 +272,10 @@ impl<T: Real> Solid<T> for Revolved<T> {
     fn placed(&self, at: &Placement<T>) -> Self {
         let profile = self.profile.iter().map(|place| place.map(|length| at.length(length)));
         Self { axis: self.axis.placed(at), profile: profile.collect(), ..*self }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        self.is_closed.then(|| Gate::closed(|inside| Self { inside, ..self.clone() }.features()))
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

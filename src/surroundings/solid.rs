@@ -1,6 +1,7 @@
 //! Solid: what a shape has to know. All of it stands in the shape's own file.
 
 use super::entry::{Key, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::Mistake;
 use super::placement::Placement;
 use super::{Clearance, Feature, Mesh};
@@ -104,6 +105,11 @@ pub(crate) trait Solid<T: Real>: Clone {
     /// Whether it has no inside: what jumps into it comes out on its other side.
     fn is_thin(&self) -> bool {
         false
+    }
+
+    /// Its surface by its sides, if it has two that can be told apart.
+    fn gate(&self) -> Option<Gate<T>> {
+        None
     }
 
     /// The corners of the box around the hollow, if spheres are inside of one that ends.
@@ -319,6 +325,13 @@ macro_rules! solids {
                 }
             }
 
+            /// As [`Solid::gate`].
+            pub(super) fn gate(&self) -> Option<Gate<T>> {
+                match self {
+                    $(Self::$solid(solid) => solid.gate(),)*
+                }
+            }
+
             /// As [`Solid::inscribed`].
             pub(crate) fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
                 match self {
@@ -381,7 +394,7 @@ macro_rules! solids {
         }
 
         /// All kinds of shape, in the order of the list.
-        pub(crate) const SHAPE_KINDS: &[ShapeKind] = &[$(ShapeKind {
+        const ALL_KINDS: &[ShapeKind] = &[$(ShapeKind {
             name: <$solid<f64> as Solid<f64>>::NAME,
             other_name: <$solid<f64> as Solid<f64>>::OTHER_NAME,
             keys: <$solid<f64> as Solid<f64>>::KEYS,

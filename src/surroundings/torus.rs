@@ -3,6 +3,7 @@
 use super::Clearance;
 use super::axis::{Axis, pi};
 use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, ShapeEntry};
+use super::gate::Gate;
 use super::mistake::{Mistake, direction, point, positive};
 use super::piece::Piece;
 use super::pieced::Pieced;
@@ -174,6 +175,10 @@ impl<T: Real> Solid<T> for Torus<T> {
             tube_radius: at.length(self.tube_radius),
             inside: self.inside,
         }
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        Some(Gate::closed(|inside| Self { inside, ..*self }.features()))
     }
 
     fn interior(&self) -> Option<[Vec3<T>; 2]> {

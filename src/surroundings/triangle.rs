@@ -1,10 +1,11 @@
 //! Triangle: a thin one, touched from both sides.
 
 use super::entry::{Key, ShapeEntry, VERTICES};
+use super::gate::{Gate, Opening};
 use super::mistake::{Mistake, point};
 use super::placement::Placement;
 use super::solid::Solid;
-use super::{Facet, Feature};
+use super::{Facet, Feature, Plane};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -92,6 +93,14 @@ impl<T: Real> Solid<T> for Triangle<T> {
     fn area(&self) -> Option<T> {
         let [a, b, c] = self.corners;
         Some((b - a).cross(c - a).length())
+    }
+
+    fn gate(&self) -> Option<Gate<T>> {
+        let [a, b, c] = self.corners;
+        let across = (b - a).cross(c - a);
+        let normal = across * (T::ONE / across.length());
+        let opening = Opening::Triangle(self.corners, normal);
+        Some(Gate::flat(Plane { point: a, normal }, Some(opening)))
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -166,3 +166,49 @@ fn a_series_is_drawn() {
     refused("plot words.csv", &["words.csv: it must have names"]);
     assert!(!folder.names().contains(&"words.svg".to_owned()));
 }
+
+/// A box of balls, and a sensor in its middle.
+const SENSED: &str = r#"
+duration = 2.0
+stepped = { dt = 0.01 }
+surroundings = [
+  { shape = "box", lower = [-2, -2, -2], upper = [2, 2, 2], inside = true },
+  { shape = "disc", name = "hole", center = [0, 0, 0], axis = [0, 0, 1], radius = 1, sensor = true },
+  { shape = "plane", point = [0, 0, 0], normal = [0, 0, 1], sensor = true },
+]
+[[spheres]]
+count = 40
+arrangement = "random"
+radius = 0.1
+temperature = 4.0
+"#;
+
+#[test]
+fn sensors_are_in_the_summary_and_in_the_series() {
+    for engine in ["stepped", "event-driven"] {
+        let folder = Folder::with(SENSED);
+        let run = format!("run scene.toml --engine {engine}");
+        let series = "--series series.csv --series-every 0.25";
+        let summary = folder.says(&format!("{run} --json {series}")).summary();
+        let passages = &summary["parts"][1]["passages"];
+        let [inward, outward] = ["inward", "outward"].map(|way| passages[way].as_f64().unwrap());
+        assert!(inward > 3.0 && outward > 3.0, "{passages}");
+        assert!(summary["parts"][2]["passages"]["inward"].as_f64().unwrap() > inward);
+        assert_eq!(summary["parts"][0]["passages"], serde_json::Value::Null);
+        let last = |name: &str| column(&folder, name).last().unwrap().unwrap();
+        assert_eq!([last("hole.inward"), last("hole.outward")], [inward, outward]);
+        let flow: f64 = column(&folder, "hole.flow").into_iter().flatten().sum();
+        assert!((flow * 0.25 - (inward - outward)).abs() < 1e-9, "{flow}");
+        let (names, _) = rows(&folder.path("series.csv"));
+        assert!(!names.iter().any(|name| name == "hole.pressure"));
+        let words = folder.says(&run).well();
+        assert!(words.contains("sensors") && words.contains("  hole"), "{words}");
+        // Kept on the way, as in one run.
+        let whole = folder.read("series.csv");
+        folder.says(&format!("{run} --duration 1.0 --snapshot run.snapshot {series}"));
+        let resumed = format!("run --resume run.snapshot --duration 2.0 --json {series}");
+        let resumed = folder.says(&resumed).summary();
+        assert_eq!(resumed["parts"], summary["parts"]);
+        assert_eq!(folder.read("series.csv"), whole);
+    }
+}

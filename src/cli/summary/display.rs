@@ -2,9 +2,10 @@
 
 use core::fmt;
 
-use super::{Summary, shortest};
+use super::{PartSummary, Summary, shortest};
 use carom::observe::Statistic;
 use carom::study::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
+use carom::surroundings::Passages;
 
 /// The labels of a vector's rows.
 const AXES: [&str; 3] = ["  x", "  y", "  z"];
@@ -24,9 +25,10 @@ impl fmt::Display for Summary {
         if !gifts.is_empty() {
             writeln!(f, "{gifts}")?;
         }
-        let parts = self.parts();
-        if !parts.is_empty() {
-            writeln!(f, "{parts}")?;
+        for parts in [self.parts(), self.sensors()] {
+            if !parts.is_empty() {
+                writeln!(f, "{parts}")?;
+            }
         }
         let gas = self.gas();
         if !gas.is_empty() {
@@ -176,17 +178,29 @@ impl Summary {
     /// What parts did, where they have names, or are few but more than one.
     fn parts(&self) -> Table {
         let mut table = Table::default();
-        let is_named = self.parts.iter().any(|part| part.name.is_some());
-        if !is_named && !(2..=FEW_PARTS).contains(&self.parts.len()) {
+        let hit = || self.parts.iter().filter(|part| part.passages.is_none());
+        let is_named = hit().any(|part| part.name.is_some());
+        if !is_named && !(2..=FEW_PARTS).contains(&hit().count()) {
             return table;
         }
         let heads = ["collisions", "impulse x", "y", "z"];
         table.row("parts", heads.map(str::to_owned));
-        for part in self.parts.iter().filter(|part| !is_named || part.name.is_some()) {
-            let number = format!("{}", part.index);
-            let name = part.name.as_ref().unwrap_or(&number);
+        for part in hit().filter(|part| !is_named || part.name.is_some()) {
             let counts = [grouped(part.collisions)].into_iter();
-            table.row(&format!("  {name}"), counts.chain(part.impulse.map(digits)));
+            table.row(&label(part), counts.chain(part.impulse.map(digits)));
+        }
+        table
+    }
+
+    /// How often centres passed through sensors.
+    fn sensors(&self) -> Table {
+        let mut table = Table::default();
+        for part in &self.parts {
+            let Some(Passages { inward, outward }) = part.passages else { continue };
+            if table.is_empty() {
+                table.row("sensors", ["inward", "outward"].map(str::to_owned));
+            }
+            table.row(&label(part), [inward, outward].map(grouped));
         }
         table
     }
@@ -213,4 +227,10 @@ impl Summary {
         }
         table
     }
+}
+
+/// What a part is called, by its number where it has no name.
+fn label(part: &PartSummary) -> String {
+    let number = format!("{}", part.index);
+    format!("  {}", part.name.as_ref().unwrap_or(&number))
 }

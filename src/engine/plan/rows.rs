@@ -55,6 +55,10 @@ impl fmt::Display for Plan {
         )?;
         row("pairs", self.pairs())?;
         row("surroundings", &self.surroundings())?;
+        if self.sensors > 0 {
+            let when = if is_stepped { "after each step" } else { "when collisions end them" };
+            row("sensors", &format!("{}: ways are looked at {when}", self.sensors))?;
+        }
         let contacts = self.has_pairs || self.features > 0;
         row(
             "impact",

@@ -12,7 +12,7 @@ use super::resolve::resolve;
 use super::setting::Setting;
 #[cfg(feature = "files")]
 use super::snapshot;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, Columns3};
 use crate::engine::account::{Account, Totals};
 use crate::engine::interface::{Engine, StepEngine};
 use crate::engine::plan::{Plan, Turning};
@@ -55,6 +55,11 @@ impl<T: Real> StepEngine<T> for Driver<T> {
 
     fn steps(&self) -> u64 {
         self.clock.steps
+    }
+
+    fn centers(&self) -> Columns3<T> {
+        let state = &self.region.state;
+        state.by_index(&state.position)
     }
 
     fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>) {

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 use super::{Number, Numbers, Pair, Vector, Whole};
-use crate::surroundings::{FilePath, Key, Meaning, SHAPE_KINDS, ShapeEntry, ShapeKind, Value};
+use crate::surroundings::{FilePath, Key, Meaning, ShapeEntry, ShapeKind, Value, shape_kinds};
 
 /// An entry.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +16,7 @@ pub(in crate::scene) struct RawSurroundings {
     pub(in crate::scene) shape: Option<&'static ShapeKind>,
     pub(in crate::scene) values: ShapeEntry,
     pub(in crate::scene) name: Option<String>,
+    pub(in crate::scene) sensor: bool,
     pub(in crate::scene) translation: Option<Vector>,
     pub(in crate::scene) rotation: Option<RawRotation>,
     pub(in crate::scene) scale: Option<Number>,
@@ -50,6 +51,8 @@ pub(in crate::scene) struct RawRotation {
 const SHAPE: &str = "shape";
 /// What a part is called.
 const NAME: &str = "name";
+/// Whether a part only counts.
+const SENSOR: &str = "sensor";
 /// Where a shape is moved to.
 const TRANSLATION: &str = "translation";
 /// How a shape is turned.
@@ -61,7 +64,7 @@ const SCALE: &str = "scale";
 /// later ones have too behind.
 pub(in crate::scene) static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
     let mut keys: Vec<Key> = Vec::new();
-    for key in SHAPE_KINDS.iter().flat_map(|kind| kind.keys) {
+    for key in shape_kinds().flat_map(|kind| kind.keys) {
         keys.retain(|other| other.name != key.name);
         keys.push(*key);
     }
@@ -71,17 +74,18 @@ pub(in crate::scene) static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
 /// The names of all keys.
 static KEY_NAMES: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let own = KEYS.iter().map(|key| key.name);
-    [SHAPE].into_iter().chain(own).chain([NAME, TRANSLATION, ROTATION, SCALE]).collect()
+    [SHAPE].into_iter().chain(own).chain([NAME, SENSOR, TRANSLATION, ROTATION, SCALE]).collect()
 });
 
 /// The names of all shapes.
 static SHAPE_NAMES: LazyLock<Vec<&str>> =
-    LazyLock::new(|| SHAPE_KINDS.iter().flat_map(ShapeKind::names).collect());
+    LazyLock::new(|| shape_kinds().flat_map(ShapeKind::names).collect());
 
 /// One of the keys.
 enum Field {
     Shape,
     Name,
+    Sensor,
     Translation,
     Rotation,
     Scale,
@@ -101,6 +105,7 @@ impl<'de> Deserialize<'de> for Field {
                 match name {
                     SHAPE => return Ok(Field::Shape),
                     NAME => return Ok(Field::Name),
+                    SENSOR => return Ok(Field::Sensor),
                     TRANSLATION => return Ok(Field::Translation),
                     ROTATION => return Ok(Field::Rotation),
                     SCALE => return Ok(Field::Scale),
@@ -127,9 +132,8 @@ impl<'de> Deserialize<'de> for Named {
             }
 
             fn visit_str<E: Error>(self, name: &str) -> Result<Named, E> {
-                let mut names = SHAPE_KINDS
-                    .iter()
-                    .flat_map(|kind| kind.names().map(move |name| Named(kind, name)));
+                let mut names =
+                    shape_kinds().flat_map(|kind| kind.names().map(move |name| Named(kind, name)));
                 names
                     .find(|Named(_, own)| *own == name)
                     .ok_or_else(|| E::unknown_variant(name, &SHAPE_NAMES))
@@ -158,6 +162,7 @@ impl<'de> Deserialize<'de> for RawSurroundings {
                             raw.values.shape = name;
                         }
                         Field::Name => raw.name = Some(map.next_value()?),
+                        Field::Sensor => raw.sensor = map.next_value()?,
                         Field::Translation => raw.translation = Some(map.next_value()?),
                         Field::Rotation => raw.rotation = Some(map.next_value()?),
                         Field::Scale => raw.scale = Some(map.next_value()?),
@@ -206,12 +211,12 @@ fn value<'de, A: MapAccess<'de>>(key: Key, map: &mut A) -> Result<Value, A::Erro
 
 #[cfg(test)]
 mod tests {
-    use super::{KEYS, SHAPE_KINDS};
+    use super::{KEYS, shape_kinds};
 
     /// The keys are read before it is known which shape they are of.
     #[test]
     fn a_key_means_the_same_in_all_shapes() {
-        for kind in SHAPE_KINDS {
+        for kind in shape_kinds() {
             for key in kind.keys {
                 assert!(KEYS.contains(key), "{key:?} of a {} means something else", kind.name);
             }
