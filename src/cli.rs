@@ -18,6 +18,7 @@ mod outlook;
 mod output_file;
 mod outputs;
 mod pace;
+mod pictures;
 mod plain;
 mod plot;
 mod progress;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use carom::observe::Analysis;
 use carom::output::{FrameFormat, FrameReader, WholeFile, write_findings};
 use carom::scene::{AnalysisKind, AnalysisSettings};
+use carom::study::chart::Look;
 
 use super::analyses::Found;
 use super::arguments::AnalyseArguments;
@@ -143,7 +144,7 @@ fn finish(it: Analysing, plot: bool) -> Result<Found, Failure> {
     };
     write().map_err(|source| OutputError::Write { path: it.shown.clone(), source })?;
     if plot {
-        plot::draw(&it.shown, &it.shown.with_extension("svg"), &[])?;
+        plot::draw(&it.shown, &it.shown.with_extension("svg"), &[], &Look::default())?;
     }
     Ok(Found::of(it.kind, &it.shown, findings))
 }

@@ -12,6 +12,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::analyse::KINDS;
 use super::events::bodies;
+use super::pictures::PictureArguments;
 use super::study::{StudyCommand, StudyFolder};
 use super::variation::MOST_RUNS;
 
@@ -106,7 +107,7 @@ Exit status: 0 done, 2 a mistake in the arguments, 1 for frames that cannot be r
 Examples:
   carom run gas.toml --series gas.csv --series-every 0.1
   carom plot gas.csv                    draws gas.svg
-  carom plot gas.csv -o energy.svg --columns energy,kinetic,potential")]
+  carom plot gas.csv -o energy.pdf --columns energy,kinetic,potential --width 302")]
     Plot(PlotArguments),
     /// Run a scene once for each value of some of its keys, side by side on all cores.
     ///
@@ -393,9 +394,12 @@ pub struct PlotArguments {
     /// it
     pub file: PathBuf,
 
-    /// The picture [default: the file's name with .svg]
-    #[arg(short, long, value_name = "FILE.svg")]
+    /// The picture, .svg, .png or .pdf [default: the file's name with .svg]
+    #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub pictures: PictureArguments,
 
     /// Which columns to draw [default: all that have numbers]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use carom::output::write_whole;
-use carom::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
+use carom::study::chart::{Axis, Chart, Format, Look, Mark, Picture, Scale, Series};
 
 use super::arguments::PlotArguments;
 use super::failure::Failure;
@@ -30,15 +30,15 @@ type Columns = Vec<(String, Vec<Option<f64>>)>;
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let path = &arguments.file;
     let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("svg"));
-    draw(path, &output, &arguments.columns)
+    draw(path, &output, &arguments.columns, &arguments.pictures.look())
 }
 
 /// Draws columns of a file, or all of them, as a picture.
-pub fn draw(path: &Path, output: &Path, names: &[String]) -> Result<(), Failure> {
+pub fn draw(path: &Path, output: &Path, names: &[String], look: &Look) -> Result<(), Failure> {
     let shown = output.display();
-    if output.extension().is_none_or(|ending| ending != "svg") {
-        return Err(Failure::Argument(format!("-o is {shown}; its ending must be .svg")));
-    }
+    let format = Format::of(output).ok_or_else(|| {
+        Failure::Argument(format!("-o is {shown}; its ending must be .svg, .png or .pdf"))
+    })?;
     let refused = |source| Failure::Open { option: "-o", source };
     let Destination::Regular(target) = Destination::of(output).map_err(refused)? else {
         return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
@@ -50,9 +50,11 @@ pub fn draw(path: &Path, output: &Path, names: &[String]) -> Result<(), Failure>
     }
     let columns = chosen(columns, names, path)?;
     let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
-    let svg = Picture { charts: charts(&title, &time, &values, &columns) }.svg();
-    let svg = svg.map_err(|reason| refused(OutputError::Path { path: output.into(), reason }))?;
-    let written = write_whole(&target, svg.as_bytes());
+    let picture = Picture { charts: charts(&title, &time, &values, &columns) };
+    let bytes = picture.bytes(format, look);
+    let bytes =
+        bytes.map_err(|reason| refused(OutputError::Path { path: output.into(), reason }))?;
+    let written = write_whole(&target, &bytes);
     written.map_err(|source| OutputError::Write { path: output.into(), source }.into())
 }
 

@@ -14,6 +14,7 @@ use clap::{Args, Subcommand};
 
 use super::arguments::{SceneArguments, positive};
 use super::failure::Failure;
+use super::pictures::PictureArguments;
 use super::print;
 use super::scene_argument::scene_file;
 use watch::Teller;
@@ -151,15 +152,27 @@ impl StudyFolder {
         }
         Ok(folder)
     }
+}
 
+/// Where the results of a study go, and what its pictures look like.
+#[derive(Args, Debug)]
+pub struct StudyOutput {
+    #[command(flatten)]
+    folder: StudyFolder,
+
+    #[command(flatten)]
+    pictures: PictureArguments,
+}
+
+impl StudyOutput {
     /// Makes a study, writes all that it found, and prints its report.
     pub fn conduct(&self, study: &impl Study) -> Result<(), Failure> {
-        let folder = self.open(&study.folder())?;
+        let folder = self.folder.open(&study.folder())?;
         let path = folder.path().display();
         let teller = Teller::new(folder.path());
         let report = study.measure(&study.journal(&folder)?, &teller)?;
         drop(teller);
-        report.write(&folder)?;
+        report.write(&folder, &self.pictures.look())?;
         print(&format!("{report}\nTables and pictures are in {path}.\n"))?;
         Ok(report.verdict()?)
     }

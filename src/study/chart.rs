@@ -1,20 +1,22 @@
-//! Charts: measured points and laws, drawn as SVG and as PNG.
+//! Charts: measured points and laws, drawn once, and written as SVG, PNG and PDF.
 
 mod axis;
+mod canvas;
+mod draw;
+mod look;
+mod pdf;
+mod png;
+mod svg;
+mod text;
 
-use std::ops::Add;
 use std::path::Path;
-use std::sync::Once;
-
-use plotters::prelude::*;
-use plotters::style::register_font;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::StudyError;
-use super::folder::{Folder, write};
-use axis::Divided;
+use super::folder::Folder;
+use canvas::Canvas;
 
 pub use axis::{Axis, Scale};
+pub use look::{Look, Theme};
 
 /// How points are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,6 +45,8 @@ pub enum Shape {
     Disc,
     /// A square.
     Square,
+    /// A triangle that points upwards.
+    Triangle,
 }
 
 /// Points that belong together.
@@ -75,18 +79,6 @@ pub struct Chart {
     pub series: Vec<Series>,
 }
 
-/// The file of a picture of three bytes a pixel, row by row.
-fn png(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut file = encoder.write_header()?;
-    file.write_image_data(pixels)?;
-    file.finish()?;
-    Ok(bytes)
-}
-
 /// Charts side by side, each with its legend below; more than three stand in rows of two.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
@@ -94,109 +86,44 @@ pub struct Picture {
     pub charts: Vec<Chart>,
 }
 
-/// Of a chart without its legend, pixels.
-const SIZE: (u32, u32) = (640, 480);
+/// The kind of a file that a picture is written to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Lines, and text as text.
+    Svg,
+    /// Two of its pixels for each one of the [look](Look), in either direction.
+    Png,
+    /// Lines, and text as outlines: a printer needs no font.
+    Pdf,
+}
 
-/// Around a chart, pixels.
-const MARGIN: i32 = 14;
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
 
-/// For the numbers and the label of the vertical axis, pixels.
-const LABELS: i32 = 76;
-
-/// Of a line of the legend, pixels.
-const LINE: i32 = 20;
-
-/// In which all text is set. It comes with the program: a PNG looks the same
-/// everywhere.
-const FONT: &str = "DejaVu Sans, sans-serif";
-
-/// Colours that colour-blind readers can separate (Okabe and Ito 2008).
-const PALETTE: [RGBColor; 7] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(0, 0, 0),
-];
-
-impl Picture {
-    /// Writes `NAME.svg` and `NAME.png` into a folder.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, folder: &Folder, name: &str) -> Result<(), StudyError> {
-        let folder = folder.path();
-        let failed =
-            |path: &Path, reason: String| StudyError::Picture { path: path.into(), reason };
-
-        let path = folder.join(format!("{name}.svg"));
-        let text = self.svg().map_err(|reason| failed(&path, reason))?;
-        write(&path, text.as_bytes())?;
-
-        let path = folder.join(format!("{name}.png"));
-        let size = self.size();
-        let mut pixels = vec![0; 3 * size.0 as usize * size.1 as usize];
-        self.draw(&BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area())
-            .map_err(|reason| failed(&path, reason))?;
-        let bytes = png(&pixels, size).map_err(|error| failed(&path, error.to_string()))?;
-        write(&path, &bytes)
-    }
-
-    /// The text of the picture as SVG.
-    ///
-    /// # Errors
-    /// If it cannot be drawn, as a sentence.
-    pub fn svg(&self) -> Result<String, String> {
-        let mut text = String::new();
-        self.draw(&SVGBackend::with_string(&mut text, self.size()).into_drawing_area())?;
-        Ok(text)
-    }
-
-    /// The charts that stand side by side.
-    fn rows(&self) -> impl Iterator<Item = &[Chart]> {
-        self.charts.chunks(if self.charts.len() > 3 { 2 } else { 3 })
-    }
-
-    /// Width and height, pixels.
-    fn size(&self) -> (u32, u32) {
-        let charts = self.rows().map(<[Chart]>::len).max().unwrap_or(1).max(1);
-        let height = self.rows().map(row_height).sum::<u32>();
-        (SIZE.0 * charts as u32, height.max(1))
-    }
-
-    fn draw<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, plotters::coord::Shift>,
-    ) -> Result<(), String> {
-        static FONTS: Once = Once::new();
-        FONTS.call_once(|| {
-            // A font that cannot be read leaves the picture without text.
-            let _ = register_font(FONT, FontStyle::Normal, dejavu::sans::regular());
-        });
-        area.fill(&WHITE).map_err(|error| error.to_string())?;
-        let mut below = area.clone();
-        for row in self.rows() {
-            let (mut rest, next) = below.split_vertically(row_height(row));
-            for chart in row {
-                let (own, right) = rest.split_horizontally(SIZE.0);
-                chart.draw(&own)?;
-                rest = right;
-            }
-            below = next;
+    /// The ending of its files.
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Pdf => "pdf",
         }
-        area.present().map_err(|error| error.to_string())
+    }
+
+    /// The one that a file's name ends with.
+    ///
+    /// ```
+    /// use carom::study::chart::Format;
+    /// assert_eq!(Format::of("energy.pdf".as_ref()), Some(Format::Pdf));
+    /// assert_eq!(Format::of("energy.jpeg".as_ref()), None);
+    /// ```
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?;
+        Self::ALL.into_iter().find(|format| ending == format.ending())
     }
 }
-
-/// The height of charts side by side, pixels.
-fn row_height(row: &[Chart]) -> u32 {
-    SIZE.1 + row.iter().map(Chart::legend_height).max().unwrap_or(0)
-}
-
-/// A marker at a place.
-type MarkerAt<C, B> = <EmptyElement<C, B> as Add<Polygon<(i32, i32)>>>::Output;
 
 impl Series {
     /// Grey points that are joined, each with a marker.
@@ -215,28 +142,6 @@ impl Series {
     pub fn mark(self, mark: Mark) -> Self {
         Self { mark, ..self }
     }
-
-    fn ink(&self) -> RGBColor {
-        self.color.map_or(RGBColor(120, 120, 120), |k| PALETTE[k % PALETTE.len()])
-    }
-
-    fn has_markers(&self) -> bool {
-        matches!(self.mark, Mark::LineAndMarkers | Mark::Markers)
-    }
-
-    /// The marker of a point, as a polygon: of a disc with 16 corners, too many to see.
-    fn marker<C, B: DrawingBackend>(&self, place: C) -> MarkerAt<C, B> {
-        let corners = match self.shape {
-            Shape::Disc => (0..16)
-                .map(|k| f64::from(k) * std::f64::consts::TAU / 16.0)
-                .map(|angle| {
-                    ((4.0 * angle.cos()).round() as i32, (4.0 * angle.sin()).round() as i32)
-                })
-                .collect(),
-            Shape::Square => vec![(-3, -3), (3, -3), (3, 3), (-3, 3)],
-        };
-        EmptyElement::at(place) + Polygon::new(corners, self.ink().filled())
-    }
 }
 
 impl From<Chart> for Picture {
@@ -245,126 +150,34 @@ impl From<Chart> for Picture {
     }
 }
 
-impl Chart {
-    fn draw<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, plotters::coord::Shift>,
-    ) -> Result<(), String> {
-        self.drawn(area).map_err(|error| error.to_string())
+impl Picture {
+    /// Writes `NAME.svg`, `NAME.png` and `NAME.pdf` into a folder.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn write(&self, folder: &Folder, name: &str, look: &Look) -> Result<(), StudyError> {
+        let canvas = self.drawn(look);
+        Format::ALL.into_iter().try_for_each(|format| {
+            let name = format!("{name}.{}", format.ending());
+            let failed = |reason| StudyError::Picture { path: folder.path().join(&name), reason };
+            folder.write(&name, &encoded(&canvas, format).map_err(failed)?)
+        })
     }
 
-    /// Those that the legend names.
-    fn named(&self) -> impl Iterator<Item = &Series> {
-        self.series.iter().filter(|series| !series.name.is_empty() && series.mark != Mark::Guide)
+    /// The bytes of the picture's file.
+    ///
+    /// # Errors
+    /// If it cannot be drawn, as a sentence.
+    pub fn bytes(&self, format: Format, look: &Look) -> Result<Vec<u8>, String> {
+        encoded(&self.drawn(look), format)
     }
+}
 
-    /// How wide an entry of the legend is, pixels; as many as fit stand side by side.
-    fn legend_entry(&self) -> u32 {
-        let longest = self.named().map(|series| series.name.chars().count()).max().unwrap_or(0);
-        let width = SIZE.0 - LABELS as u32;
-        width / (width / (longest as u32 * 6 + 44)).max(1)
-    }
-
-    fn legend_height(&self) -> u32 {
-        let columns = (SIZE.0 - LABELS as u32) / self.legend_entry();
-        self.named().count().div_ceil(columns as usize) as u32 * LINE as u32
-    }
-
-    /// What each series is called: below the chart, where it hides nothing.
-    fn legend<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, plotters::coord::Shift>,
-    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        let entry = self.legend_entry() as i32;
-        let columns = (SIZE.0 as i32 - LABELS) / entry;
-        for (k, series) in (0..).zip(self.named()) {
-            let (x, y) = (LABELS + k % columns * entry, LINE * (k / columns) + LINE / 2 - 4);
-            let stroke = series.ink().stroke_width(2);
-            let dash = |from: i32, to: i32| PathElement::new([(x + from, y), (x + to, y)], stroke);
-            match series.mark {
-                Mark::Line | Mark::LineAndMarkers => area.draw(&dash(0, 24))?,
-                Mark::Dashes => {
-                    for from in [0, 9, 18] {
-                        area.draw(&dash(from, from + 6))?;
-                    }
-                }
-                Mark::Rings => area.draw(&Circle::new((x + 12, y), 6, stroke))?,
-                Mark::Markers | Mark::Guide => {}
-            }
-            if series.has_markers() {
-                area.draw(&series.marker((x + 12, y)))?;
-            }
-            let text =
-                TextStyle::from((FONT, 13).into_font()).pos(Pos::new(HPos::Left, VPos::Center));
-            area.draw(&Text::new(series.name.as_str(), (x + 32, y), text))?;
-        }
-        Ok(())
-    }
-
-    fn drawn<B: DrawingBackend>(
-        &self,
-        area: &DrawingArea<B, plotters::coord::Shift>,
-    ) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
-        let series = || self.series.iter().filter(|series| series.mark != Mark::Guide);
-        let points = || series().flat_map(|series| series.points.iter());
-        let (area, below) = area.split_vertically(SIZE.1);
-        self.legend(&below)?;
-        let x = Divided::new(&self.x, points().map(|point| point.0));
-        let y = Divided::new(&self.y, points().map(|point| point.1));
-        let place = |&(a, b): &(f64, f64)| x.coordinate(a).zip(y.coordinate(b));
-        let mut chart = ChartBuilder::on(&area)
-            .caption(&self.title, (FONT, 18))
-            .margin(MARGIN)
-            .x_label_area_size(46)
-            .y_label_area_size(LABELS)
-            .build_cartesian_2d(x.clone(), y.clone())?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(BLACK.mix(0.1))
-            .label_style((FONT, 13))
-            .axis_desc_style((FONT, 15))
-            .x_desc(&self.x.label)
-            .y_desc(&self.y.label)
-            .draw()?;
-        let thin = BLACK.mix(0.5).stroke_width(1);
-        // Beyond these lines is nothing but 0.
-        let (across, up) = (x.span(), y.span());
-        let edges = [
-            x.edge_of_zero().map(|edge| [(edge, up.start), (edge, up.end)]),
-            y.edge_of_zero().map(|edge| [(across.start, edge), (across.end, edge)]),
-        ];
-        chart.draw_series(edges.into_iter().flatten().map(|edge| PathElement::new(edge, thin)))?;
-        for series in &self.series {
-            let color = series.ink();
-            let places: Vec<(f64, f64)> = series.points.iter().filter_map(place).collect();
-            let stroke = color.stroke_width(2);
-            let line = places.iter().copied();
-            match series.mark {
-                Mark::Markers => chart.draw_series(LineSeries::new([], stroke))?,
-                Mark::Line | Mark::LineAndMarkers => {
-                    chart.draw_series(LineSeries::new(line, stroke))?
-                }
-                Mark::Dashes => chart.draw_series(DashedLineSeries::new(line, 6, 5, stroke))?,
-                Mark::Rings => chart.draw_series(line.map(|p| Circle::new(p, 8, stroke)))?,
-                Mark::Guide => {
-                    let soft = BLACK.mix(0.6);
-                    let style = TextStyle::from((FONT, 11).into_font())
-                        .color(&soft)
-                        .pos(Pos::new(HPos::Right, VPos::Bottom));
-                    let name = places.last().map(|&end| Text::new(series.name.clone(), end, style));
-                    chart.draw_series(name)?;
-                    chart.draw_series(DashedLineSeries::new(line, 3, 4, thin))?
-                }
-            };
-            let bars = series.bars.iter().filter_map(|[a, b]| place(a).zip(place(b)));
-            let bars = bars.map(|(a, b)| PathElement::new([a, b], color.stroke_width(1)));
-            chart.draw_series(bars)?;
-            if series.has_markers() {
-                chart.draw_series(places.iter().map(|&place| series.marker(place)))?;
-            }
-        }
-        Ok(())
+fn encoded(canvas: &Canvas, format: Format) -> Result<Vec<u8>, String> {
+    match format {
+        Format::Svg => Ok(svg::text(canvas).into_bytes()),
+        Format::Png => png::bytes(canvas).map_err(|error| error.to_string()),
+        Format::Pdf => Ok(pdf::bytes(canvas)),
     }
 }
 
@@ -372,47 +185,60 @@ impl Chart {
 mod tests {
     use super::*;
 
-    #[test]
-    fn draws_both_kinds_of_files() -> Result<(), Box<dyn std::error::Error>> {
+    fn orders() -> Picture {
         let law =
             |power: i32| (1..20).map(move |n| (2.0_f64.powi(-n), 1e-3 * 2.0_f64.powi(-n * power)));
-        let series = |name: &str, power, color, mark| Series {
-            name: name.to_owned(),
-            color,
-            mark,
-            points: law(power).collect(),
-            ..Series::default()
-        };
         let chart = Chart {
             title: "errors, ε²".to_owned(),
             x: Axis::new("Δt, s", Scale::Logarithmic),
             y: Axis::new("error, m", Scale::Logarithmic),
             series: vec![
-                series("first order", 1, Some(0), Mark::LineAndMarkers),
-                series("second order", 2, Some(1), Mark::Line),
-                series("law", 3, None, Mark::Dashes),
-                series("best", 1, Some(3), Mark::Rings),
+                Series::new("first order", law(1)).color(0),
+                Series::new("second order", law(2)).color(1).mark(Mark::Line),
+                Series::new("law", law(3)).mark(Mark::Dashes),
+                Series::new("best", law(1)).color(3).mark(Mark::Rings),
+                Series::new("order 2", [(1e-5, 1e-12), (1e-1, 1e-4)]).mark(Mark::Guide),
             ],
         };
         let empty = Chart { title: "empty".to_owned(), ..Chart::default() };
+        Picture { charts: vec![chart, empty] }
+    }
+
+    #[test]
+    fn draws_all_kinds_of_files() -> Result<(), Box<dyn std::error::Error>> {
         let temporary = tempfile::tempdir()?;
         let folder = Folder::open(temporary.path())?;
-        Picture { charts: vec![chart, empty] }.write(&folder, "orders")?;
+        orders().write(&folder, "orders", &Look::default())?;
         let svg = std::fs::read_to_string(folder.path().join("orders.svg"))?;
-        for text in ["errors, ε²", "Δt, s", "second order", "10⁻³"] {
+        for text in ["errors, ε²", "Δt, s", "second order", "10⁻³", "order 2"] {
             assert!(svg.contains(text), "{text} is missing");
         }
         let png = std::fs::read(folder.path().join("orders.png"))?;
         assert!(png.starts_with(b"\x89PNG"));
-        // Letters are drawn, not only lines: the picture without a font is
-        // smaller.
-        assert!(png.len() > 20_000, "{} bytes", png.len());
+        let pdf = std::fs::read(folder.path().join("orders.pdf"))?;
+        assert!(pdf.starts_with(b"%PDF-") && pdf.len() > 20_000, "{} bytes", pdf.len());
         // Nothing else is left, now that the folder is no longer locked.
         drop(folder);
-        assert_eq!(std::fs::read_dir(temporary.path())?.count(), 2);
+        assert_eq!(std::fs::read_dir(temporary.path())?.count(), 3);
         if let Some(path) = std::env::var_os("CAROM_KEEP_CHART") {
             std::fs::copy(temporary.path().join("orders.png"), path)?;
         }
+        Ok(())
+    }
+
+    #[test]
+    fn looks_differ() -> Result<(), String> {
+        let text = |look: &Look| {
+            Ok::<_, String>(String::from_utf8(orders().bytes(Format::Svg, look)?).unwrap())
+        };
+        let light = text(&Look::default())?;
+        let dark = text(&Look { theme: Theme::Dark, ..Look::default() })?;
+        assert!(light.contains("#ffffff") && !dark.contains("#ffffff"));
+        let narrow = text(&Look { width: 300, ..Look::default() })?;
+        assert!(narrow.contains("width=\"600\""), "two charts of 300 pixels");
+        // Text keeps its size.
+        let size = |svg: &str| svg.matches("font-size=\"13\"").count() > 0;
+        assert!(size(&light) && size(&narrow));
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use core::fmt::Display;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::chart::Picture;
+use super::chart::{Look, Picture};
 use super::others::Others;
 use super::{Folder, Journal, Order, Point, StudyError, Subject, Watch};
 
@@ -160,7 +160,7 @@ pub trait Report: Display + Serialize {
     ///
     /// # Errors
     /// If a file cannot be written.
-    fn write(&self, folder: &Folder) -> Result<(), StudyError>
+    fn write(&self, folder: &Folder, look: &Look) -> Result<(), StudyError>
     where
         Self: Sized,
     {
@@ -170,6 +170,6 @@ pub trait Report: Display + Serialize {
         }
         folder.write_csv(&format!("{}.csv", Self::NAME), &self.rows())?;
         folder.write_json(&format!("{}.json", Self::NAME), self)?;
-        self.pictures().iter().try_for_each(|(name, picture)| picture.write(folder, name))
+        self.pictures().iter().try_for_each(|(name, picture)| picture.write(folder, name, look))
     }
 }

@@ -160,7 +160,7 @@ fn a_series_is_drawn() {
         }
     };
     refused("plot no.csv", &["no.csv"]);
-    refused("plot gas.csv -o gas.pdf", &["-o is gas.pdf", ".svg"]);
+    refused("plot gas.csv -o gas.jpg", &["-o is gas.jpg", ".svg, .png or .pdf"]);
     refused("plot gas.csv --columns enrgy", &["\"enrgy\"", "it has time, energy"]);
     fs::write(folder.path("words.csv"), "a,b\nx,y\n").unwrap();
     refused("plot words.csv", &["words.csv: it must have names"]);

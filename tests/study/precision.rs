@@ -2,6 +2,7 @@
 //! collisions, and after an interrupt.
 
 use carom::scene::SceneFile;
+use carom::study::chart::Look;
 use carom::study::precision::{PrecisionReport, PrecisionStudy};
 use carom::study::{Folder, Journal, Report, Study, StudyError};
 
@@ -93,7 +94,7 @@ fn no_collision_is_said() {
     assert!(text.contains("f32 to the end"), "{text}");
     assert!(report.divergences.iter().all(|found| found.growth.is_none()));
     let folder = tempfile::tempdir().unwrap();
-    report.write(&Folder::open(folder.path()).unwrap()).unwrap();
+    report.write(&Folder::open(folder.path()).unwrap(), &Look::default()).unwrap();
     assert!(folder.path().join("divergence.svg").exists());
 }
 

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use carom::engine::Lanes;
 use carom::scene::EngineKind;
 use carom::scene::{Precision, SceneFile};
+use carom::study::chart::Look;
 use carom::study::scaling::{Scaling, ScalingReport, Settings};
 use carom::study::{Folder, Journal, Report, Study, StudyError, Watch};
 
@@ -103,7 +104,7 @@ fn an_interrupted_study_goes_on() {
     assert_eq!(*seen.0.lock().unwrap(), points[3..]);
     assert_eq!(resumed.points[..3], whole.points[..3]);
 
-    resumed.write(&folder).unwrap();
+    resumed.write(&folder, &Look::default()).unwrap();
     let csv = fs::read_to_string(folder.path().join("scaling.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + resumed.points.iter().map(Vec::len).sum::<usize>());
     for name in ["report.txt", "scaling.json", "scene.toml"] {

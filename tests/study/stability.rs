@@ -5,6 +5,7 @@ use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use carom::scene::Precision;
+use carom::study::chart::Look;
 use carom::study::stability::{
     Case, Extent, Figure, Section, Stability, StabilityReport, Verdict, cases,
 };
@@ -38,7 +39,7 @@ fn laws_hold() {
 /// The files hold all figures, and the pictures are there.
 fn written(report: &StabilityReport) {
     let folder = tempfile::tempdir().unwrap();
-    report.write(&Folder::open(folder.path()).unwrap()).unwrap();
+    report.write(&Folder::open(folder.path()).unwrap(), &Look::default()).unwrap();
     let json = fs::read_to_string(folder.path().join("stability.json")).unwrap();
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let cases: Vec<Section> = serde_json::from_value(json["cases"].clone()).unwrap();

@@ -5,6 +5,7 @@ use carom::engine::Lanes;
 use carom::motion::Integrator;
 use carom::scene::Impact;
 use carom::scene::{Precision, SceneFile};
+use carom::study::chart::Look;
 use carom::study::work_precision::{
     Asked, Family, Found, Quantity, Theory, WorkPrecision, WorkPrecisionReport,
 };
@@ -199,7 +200,7 @@ fn goes_on_where_it_was() {
         // What was there is not measured again.
         assert_eq!(first.timings == second.timings, k < points);
     }
-    second.write(&folder).unwrap();
+    second.write(&folder, &Look::default()).unwrap();
     for name in ["error.csv", "error.json", "report.txt", "scene.toml", "work-precision.png"] {
         assert!(std::fs::metadata(temporary.path().join(name)).unwrap().len() > 0, "{name}");
     }

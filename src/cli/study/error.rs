@@ -7,7 +7,7 @@ use carom::scene::{EngineKind, Impact};
 use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
 use clap::Args;
 
-use super::{StudiedScene, StudyFolder};
+use super::{StudiedScene, StudyOutput};
 use crate::cli::arguments::{ENGINES, LANES, PRECISIONS, one_of, positive, threads};
 use crate::cli::failure::Failure;
 
@@ -62,7 +62,7 @@ pub struct ErrorArguments {
     of: Quantity,
 
     #[command(flatten)]
-    folder: StudyFolder,
+    output: StudyOutput,
 }
 
 const INTEGRATORS: [(&str, Integrator); 3] = [
@@ -100,6 +100,6 @@ impl ErrorArguments {
             runs: self.runs,
             quantity: self.of,
         };
-        self.folder.conduct(&WorkPrecision::new(&file, &asked)?)
+        self.output.conduct(&WorkPrecision::new(&file, &asked)?)
     }
 }

@@ -4,7 +4,7 @@ use carom::scene::EngineKind;
 use carom::study::precision::{MOST_RUNS, PrecisionStudy};
 use clap::Args;
 
-use super::{StudiedScene, StudyFolder};
+use super::{StudiedScene, StudyOutput};
 use crate::cli::arguments::{ENGINES, one_of};
 use crate::cli::failure::Failure;
 
@@ -33,7 +33,7 @@ pub struct PrecisionArguments {
     samples: u64,
 
     #[command(flatten)]
-    folder: StudyFolder,
+    output: StudyOutput,
 }
 
 impl PrecisionArguments {
@@ -43,6 +43,6 @@ impl PrecisionArguments {
         if let Some(engine) = self.engine {
             file.engine = engine;
         }
-        self.folder.conduct(&PrecisionStudy::new(&file, self.runs, self.samples)?)
+        self.output.conduct(&PrecisionStudy::new(&file, self.runs, self.samples)?)
     }
 }

@@ -6,7 +6,7 @@ use carom::scene::{MOST_BODIES, Precision};
 use carom::study::scaling::{Scaling, Settings};
 use clap::Args;
 
-use super::{StudiedScene, StudyFolder};
+use super::{StudiedScene, StudyOutput};
 use crate::cli::arguments::{ENGINES, LANES, PRECISIONS, one_of, positive, threads};
 use crate::cli::failure::Failure;
 
@@ -50,7 +50,7 @@ pub struct ScalingArguments {
     runs: u64,
 
     #[command(flatten)]
-    folder: StudyFolder,
+    output: StudyOutput,
 }
 
 impl ScalingArguments {
@@ -59,7 +59,7 @@ impl ScalingArguments {
         let mut file = self.scene.file()?;
         file.engine = self.engine.unwrap_or(file.engine);
         file.dt = self.dt.or(file.dt);
-        self.folder.conduct(&Scaling::new(&file, &self.settings())?)
+        self.output.conduct(&Scaling::new(&file, &self.settings())?)
     }
 
     fn settings(&self) -> Settings {

@@ -6,7 +6,7 @@ use carom::study::stability::{Case, Extent, Stability, case, cases};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use super::StudyFolder;
+use super::StudyOutput;
 use crate::cli::failure::Failure;
 use crate::cli::print;
 
@@ -27,7 +27,7 @@ pub struct StabilityArguments {
     list: bool,
 
     #[command(flatten)]
-    folder: StudyFolder,
+    output: StudyOutput,
 }
 
 impl StabilityArguments {
@@ -41,7 +41,7 @@ impl StabilityArguments {
             names => names.iter().filter_map(|name| case(name)).collect(),
         };
         let extent = if self.quick { Extent::Quick } else { Extent::Full };
-        self.folder.conduct(&Stability::new(chosen, extent))
+        self.output.conduct(&Stability::new(chosen, extent))
     }
 }
 

@@ -2,10 +2,6 @@
 
 use core::ops::Range;
 
-use plotters::coord::ranged1d::{NoDefaultFormatting, ValueFormatter};
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::*;
-
 use crate::study::table::power_of_ten;
 
 /// How far a scale goes, and how it is divided.
@@ -28,19 +24,28 @@ pub struct Axis {
     pub scale: Scale,
     /// The values that are written beside it; none for round numbers.
     pub ticks: Vec<f64>,
+    /// Values that it reaches to, whatever is drawn: charts with the same ones can be
+    /// compared.
+    pub reach: Vec<f64>,
 }
 
 impl Axis {
     /// What the axis shows.
     #[must_use]
     pub fn new(label: &str, scale: Scale) -> Self {
-        Self { label: label.to_owned(), scale, ticks: Vec::new() }
+        Self { label: label.to_owned(), scale, ..Self::default() }
     }
 
     /// The same with these values written beside it.
     #[must_use]
     pub fn with_ticks(self, ticks: impl IntoIterator<Item = f64>) -> Self {
         Self { ticks: ticks.into_iter().collect(), ..self }
+    }
+
+    /// The same that reaches to these values.
+    #[must_use]
+    pub fn reaching(self, values: impl IntoIterator<Item = f64>) -> Self {
+        Self { reach: values.into_iter().collect(), ..self }
     }
 
     /// Where a value is: the axis itself is linear in it.
@@ -55,9 +60,7 @@ impl Axis {
 }
 
 /// A range of an axis with round numbers on it.
-#[derive(Clone)]
 pub(super) struct Divided {
-    range: RangedCoordf64,
     /// With the strip of 0.
     span: Range<f64>,
     /// Where 0 is, and the end of its strip, if there is one.
@@ -67,11 +70,29 @@ pub(super) struct Divided {
     in_powers: bool,
 }
 
+/// A number beside an axis.
+#[derive(Debug, PartialEq)]
+pub(super) struct Tick {
+    /// Where it is, 0 to 1 from one end of the axis to the other.
+    pub share: f64,
+    pub label: String,
+}
+
+/// What a power of ten is multiplied by for the numbers between it and the next one, from
+/// many to few.
+const BETWEEN: [&[f64]; 5] = [
+    &[1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0],
+    &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0],
+    &[1.0, 2.0, 5.0],
+    &[1.0, 3.0],
+    &[1.0],
+];
+
 impl Divided {
     /// An axis for these values, with a margin.
     pub(super) fn new(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let (mut least, mut greatest, mut has_zero) = (f64::MAX, f64::MIN, false);
-        for value in values {
+        for value in values.chain(axis.reach.iter().copied()) {
             has_zero |= value == 0.0;
             if let Some(value) = axis.coordinate(value) {
                 (least, greatest) = (least.min(value), greatest.max(value));
@@ -92,80 +113,86 @@ impl Divided {
         if let Some([place, edge]) = zero {
             span.start -= 2.0 * (edge - place);
         }
-        let range = span.clone().into();
-        Self { range, span, zero, axis: axis.clone(), in_powers }
+        Self { span, zero, axis: axis.clone(), in_powers }
     }
 
-    /// Where a value is.
-    pub(super) fn coordinate(&self, value: f64) -> Option<f64> {
+    /// Where a value is, 0 to 1 from one end of the axis to the other; `None` for what
+    /// cannot be shown.
+    pub(super) fn share(&self, value: f64) -> Option<f64> {
         match self.zero {
-            Some([place, _]) if value == 0.0 => Some(place),
-            _ => self.axis.coordinate(value),
+            Some([place, _]) if value == 0.0 => Some(self.share_of(place)),
+            _ => self.axis.coordinate(value).map(|coordinate| self.share_of(coordinate)),
         }
-    }
-
-    /// From where to where it goes.
-    pub(super) fn span(&self) -> Range<f64> {
-        self.span.clone()
     }
 
     /// The end of the strip of 0.
     pub(super) fn edge_of_zero(&self) -> Option<f64> {
-        self.zero.map(|[_, edge]| edge)
+        self.zero.map(|[_, edge]| self.share_of(edge))
     }
 
-    /// Powers of ten; between them others where there are few.
-    fn round_ratios(&self) -> Vec<f64> {
-        let start = self.edge_of_zero().unwrap_or(self.span.start);
-        let decades = self.span.end - start;
-        let every = (decades / 8.0).ceil().max(1.0);
-        let parts: &[f64] = match decades {
-            d if d < 0.3 => &[1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0],
-            d if d < 1.0 => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0],
-            d if d < 3.0 => &[1.0, 2.0, 5.0],
-            _ => &[1.0],
-        };
-        let first = (start / every).floor() * every;
-        let powers = (0..).map(|k| first + every * f64::from(k)).take_while(|p| *p < self.span.end);
-        let points = powers.flat_map(|power| parts.iter().map(move |part| power + part.log10()));
-        points.filter(|point| (start..self.span.end).contains(point)).collect()
-    }
-}
-
-impl Ranged for Divided {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        self.range.map(value, limit)
+    fn share_of(&self, coordinate: f64) -> f64 {
+        (coordinate - self.span.start) / (self.span.end - self.span.start)
     }
 
-    fn key_points<H: plotters::coord::ranged1d::KeyPointHint>(&self, hint: H) -> Vec<f64> {
-        let zero = self.zero.map(|[place, _]| place);
-        let points = match self.axis.scale {
+    /// The numbers beside it, about as many as this at the most; those that are given, and
+    /// that of the strip of 0, are all there.
+    pub(super) fn ticks(&self, most: usize) -> Vec<Tick> {
+        let coordinates: Vec<f64> = match self.axis.scale {
             _ if !self.axis.ticks.is_empty() => {
                 self.axis.ticks.iter().filter_map(|&tick| self.axis.coordinate(tick)).collect()
             }
-            Scale::Linear => self.range.key_points(hint),
-            Scale::Logarithmic => self.round_ratios(),
+            Scale::Linear => self.round_differences(most),
+            Scale::Logarithmic => self.round_ratios(most),
         };
-        zero.into_iter().chain(points).collect()
+        let zero =
+            self.zero.map(|[place, _]| Tick { share: self.share_of(place), label: "0".to_owned() });
+        let others = coordinates
+            .into_iter()
+            .map(|at| Tick { share: self.share_of(at), label: self.label(at) });
+        zero.into_iter().chain(others).collect()
     }
 
-    fn range(&self) -> Range<f64> {
-        self.span.clone()
+    /// Multiples of 1, 2 or 5 times a power of ten.
+    fn round_differences(&self, most: usize) -> Vec<f64> {
+        let least = (self.span.end - self.span.start) / most as f64;
+        let power = 10.0_f64.powf(least.log10().floor());
+        let steps = [1.0, 2.0, 5.0, 10.0].map(|part| part * power);
+        // A rounding does not decide.
+        let step = steps.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
+        let step = step.unwrap_or(10.0 * power);
+        let first = (self.span.start / step).ceil();
+        let count = (self.span.end / step - first).floor().max(-1.0) as i32 + 1;
+        (0..count).map(|k| (first + f64::from(k)) * step).collect()
     }
-}
 
-impl ValueFormatter<f64> for Divided {
-    fn format_ext(&self, coordinate: &f64) -> String {
-        if self.zero.is_some_and(|[place, _]| *coordinate <= place) {
-            return "0".to_owned();
-        }
+    /// Powers of ten; between them others where there are few.
+    fn round_ratios(&self, most: usize) -> Vec<f64> {
+        let start = self.zero.map_or(self.span.start, |[_, edge]| edge);
+        let decades = self.span.end - start;
+        let ratios = |every: f64, parts: &[f64]| -> Vec<f64> {
+            let first = (start / every).floor() * every;
+            let powers =
+                (0..).map(|k| first + every * f64::from(k)).take_while(|p| *p < self.span.end);
+            let points =
+                powers.flat_map(|power| parts.iter().map(move |part| power + part.log10()));
+            points.filter(|point| (start..self.span.end).contains(point)).collect()
+        };
+        let densest = match decades {
+            d if d < 0.3 => 0,
+            d if d < 1.0 => 1,
+            d if d < 3.0 => 2,
+            _ => 4,
+        };
+        let few = |points: &Vec<f64>| points.len() <= most;
+        let within = BETWEEN[densest..].iter().map(|parts| ratios(1.0, parts)).find(few);
+        within.unwrap_or_else(|| ratios((decades / most as f64).ceil().max(1.0), &[1.0]))
+    }
+
+    fn label(&self, coordinate: f64) -> String {
         match self.axis.scale {
-            Scale::Linear => short(*coordinate),
-            Scale::Logarithmic if self.in_powers => in_powers(10.0_f64.powf(*coordinate)),
-            Scale::Logarithmic => short(10.0_f64.powf(*coordinate)),
+            Scale::Linear => short(coordinate),
+            Scale::Logarithmic if self.in_powers => in_powers(10.0_f64.powf(coordinate)),
+            Scale::Logarithmic => short(10.0_f64.powf(coordinate)),
         }
     }
 }
@@ -209,22 +236,46 @@ mod tests {
         let axis = Axis::new("error", Scale::Logarithmic);
         let divided = Divided::new(&axis, [1e-8, 0.0, 1e-2].into_iter());
         let [zero, edge, least] =
-            [divided.coordinate(0.0), divided.edge_of_zero(), divided.coordinate(1e-8)]
-                .map(|c| c.unwrap());
-        assert!(divided.span.start < zero && zero < edge && edge < least);
-        let points = divided.key_points(10);
-        assert_eq!(divided.format_ext(&points[0]), "0");
-        assert_eq!(divided.format_ext(&points[1]), "10⁻⁸");
+            [divided.share(0.0), divided.edge_of_zero(), divided.share(1e-8)].map(Option::unwrap);
+        assert!(0.0 < zero && zero < edge && edge < least);
+        assert_eq!(labels(&divided, 10)[..2], ["0", "10⁻⁸"]);
         let without = Divided::new(&axis, [1e-8, 1e-2].into_iter());
-        assert_eq!((without.coordinate(0.0), without.edge_of_zero()), (None, None));
+        assert_eq!((without.share(0.0), without.edge_of_zero()), (None, None));
+    }
+
+    fn labels(divided: &Divided, most: usize) -> Vec<String> {
+        divided.ticks(most).into_iter().map(|tick| tick.label).collect()
     }
 
     #[test]
     fn ticks_are_those_that_are_given() {
         let axis = Axis::new("lanes", Scale::Logarithmic).with_ticks([1.0, 4.0, 8.0, 16.0]);
         let divided = Divided::new(&axis, [1.0, 16.0].into_iter());
-        let written: Vec<_> =
-            divided.key_points(10).iter().map(|point| divided.format_ext(point)).collect();
-        assert_eq!(written, ["1", "4", "8", "16"]);
+        assert_eq!(labels(&divided, 2), ["1", "4", "8", "16"]);
+    }
+
+    #[test]
+    fn round_numbers_are_as_many_as_have_room() {
+        let linear = Axis::new("time", Scale::Linear);
+        let divided = Divided::new(&linear, [0.0, 1.0].into_iter());
+        assert_eq!(labels(&divided, 6), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+        assert_eq!(labels(&divided, 3), ["0", "0.5", "1"]);
+        let same = Divided::new(&linear, [7.0, 7.0].into_iter());
+        assert_eq!(labels(&same, 3), ["6.5", "7", "7.5"]);
+        let error = Axis::new("error", Scale::Logarithmic);
+        let divided = Divided::new(&error, [1e-15, 1e-1].into_iter());
+        for most in 2..16 {
+            let found = labels(&divided, most);
+            assert!((2..=most + 1).contains(&found.len()), "{most}: {found:?}");
+        }
+        let near = Divided::new(&error, [1.0, 1.5].into_iter());
+        assert!(labels(&near, 8).len() >= 3);
+    }
+
+    #[test]
+    fn what_is_reached_to_is_on_it() {
+        let axis = Axis::new("error", Scale::Logarithmic).reaching([1e-9, 1.0]);
+        let divided = Divided::new(&axis, [1e-3].into_iter());
+        assert!(divided.share(1e-9).unwrap() > 0.0 && divided.share(1.0).unwrap() < 1.0);
     }
 }

@@ -51,7 +51,7 @@ impl Report for WorkPrecisionReport {
     }
 
     fn pictures(&self) -> Vec<(&'static str, Picture)> {
-        vec![("work-precision", self.diagram().into())]
+        vec![("work-precision", self.diagram())]
     }
 
     fn rows(&self) -> Vec<MethodRecord> {
@@ -101,38 +101,58 @@ impl Report for WorkPrecisionReport {
 }
 
 impl WorkPrecisionReport {
-    /// The work–precision diagram.
-    fn diagram(&self) -> Chart {
+    /// The work–precision diagram: of all precisions, or of each one where too many methods
+    /// would lie on each other.
+    fn diagram(&self) -> Picture {
         let results = self.results(self.judged, self.quantity);
-        let size = size(self.quantity, self.scale.length, self.scale.speed);
-        let point = |result: &Judged| (result.seconds, result.error / size);
-        let families = self.families();
-        // A colour for each way to move, a shape for each precision.
-        let (mut ways, mut precisions) = (Vec::<Family>::new(), Vec::new());
-        for family in &families {
-            if ways.iter().all(|way| way.stepping != family.stepping) {
-                ways.push(*family);
-            }
+        let mut precisions = Vec::new();
+        for family in self.families() {
             if !precisions.contains(&family.precision) {
                 precisions.push(family.precision);
             }
         }
-        let color = |family: &Family| ways.iter().position(|way| way.stepping == family.stepping);
+        let points: Vec<_> =
+            results.iter().map(|it| (it.method.family(), self.point(it))).collect();
+        if precisions.len() > 1 && covered(&points) > MOST_COVERED {
+            let panel = |precision: &Precision| self.panel(&results, &[*precision]);
+            Picture { charts: precisions.iter().map(panel).collect() }
+        } else {
+            self.panel(&results, &precisions).into()
+        }
+    }
+
+    /// Where a result is: seconds, and the error relative to what it is small against.
+    fn point(&self, result: &Judged) -> (f64, f64) {
+        let size = size(self.quantity, self.scale.length, self.scale.speed);
+        (result.seconds, result.error / size)
+    }
+
+    /// Some precisions, on the axes of all.
+    fn panel(&self, all: &[Judged], precisions: &[Precision]) -> Chart {
+        let is_shown = |family: &Family| precisions.contains(&family.precision);
+        let all_points = || all.iter().map(|result| self.point(result));
+        let families = self.families();
+        // A colour for each way to move, a shape for each precision.
+        let mut ways = Vec::<Family>::new();
+        for family in &families {
+            if ways.iter().all(|way| way.stepping != family.stepping) {
+                ways.push(*family);
+            }
+        }
         let shape = |precision| match precision {
             Precision::F32 => Shape::Square,
             Precision::F64 => Shape::Disc,
         };
-        let mut series = self.guides(&results.iter().map(point).collect::<Vec<_>>());
-        series.extend(families.iter().map(|family| {
-            let own = results.iter().filter(|result| result.method.family() == *family);
-            let bar =
-                |result: &Judged| result.interval.map(|seconds| (seconds, result.error / size));
+        let mut series = self.guides(&all_points().collect::<Vec<_>>());
+        series.extend(families.iter().filter(|family| is_shown(family)).map(|family| {
+            let own = || all.iter().filter(|result| result.method.family() == *family);
+            let error = |result: &Judged| self.point(result).1;
+            let bar = |result: &Judged| result.interval.map(|seconds| (seconds, error(result)));
             Series {
-                color: color(family),
+                color: ways.iter().position(|way| way.stepping == family.stepping),
                 shape: shape(family.precision),
-                points: own.clone().map(point).collect(),
-                bars: own.map(bar).collect(),
-                ..Series::default()
+                bars: own().map(bar).collect(),
+                ..Series::new("", own().map(|result| self.point(result)))
             }
         }));
         // The legend.
@@ -141,16 +161,25 @@ impl WorkPrecisionReport {
                 .zip(0..)
                 .map(|(way, color)| Series::new(way.way(), []).color(color).mark(Mark::Line)),
         );
-        series.extend(precisions.into_iter().map(|precision| {
-            let series = Series::new(precision.name(), []).mark(Mark::Markers);
-            Series { shape: shape(precision), ..series }
-        }));
-        let front = self.front.iter().map(point);
+        if precisions.len() > 1 {
+            series.extend(precisions.iter().map(|&precision| {
+                let series = Series::new(precision.name(), []).mark(Mark::Markers);
+                Series { shape: shape(precision), ..series }
+            }));
+        }
+        let front = self.front.iter().filter(|best| is_shown(&best.method.family()));
+        let front = front.map(|result| self.point(result));
         series.push(Series::new("no other is faster and better", front).mark(Mark::Rings));
+        let name = &self.subject.name;
+        let of = match precisions {
+            [one] => format!("{name}, {one}"),
+            _ => name.clone(),
+        };
         Chart {
-            title: format!("{}, up to time {:.4}", self.subject.name, self.time),
-            x: Axis::new("wall time / s", Scale::Logarithmic),
-            y: Axis::new(self.quantity.axis(), Scale::Logarithmic),
+            title: format!("{of}, up to time {:.4}", self.time),
+            x: Axis::new("wall time / s", Scale::Logarithmic).reaching(all_points().map(|p| p.0)),
+            y: Axis::new(self.quantity.axis(), Scale::Logarithmic)
+                .reaching(all_points().map(|p| p.1)),
             series,
         }
     }
@@ -182,5 +211,49 @@ impl WorkPrecisionReport {
             }
         }
         guides
+    }
+}
+
+/// A share of the points that may lie on others of another family before each precision has
+/// a panel of its own.
+const MOST_COVERED: f64 = 0.2;
+
+/// Two points this near to each other lie on each other, of the span of an axis.
+const NEAR: f64 = 0.02;
+
+/// The share of the points that lie on one of another family, on axes of logarithms.
+fn covered(points: &[(Family, (f64, f64))]) -> f64 {
+    let logarithms: Vec<_> = points
+        .iter()
+        .filter(|(_, (x, y))| *x > 0.0 && *y > 0.0)
+        .map(|(family, (x, y))| (family, [x.ln(), y.ln()]))
+        .collect();
+    let span = |k: usize| {
+        let values = || logarithms.iter().map(|(_, place)| place[k]);
+        values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+    };
+    let spans = [span(0), span(1)];
+    let is_covered = |(family, place): &&(&Family, [f64; 2])| {
+        logarithms.iter().any(|(other, at)| {
+            other != family && (0..2).all(|k| (at[k] - place[k]).abs() <= NEAR * spans[k])
+        })
+    };
+    let count = logarithms.iter().filter(is_covered).count();
+    count as f64 / logarithms.len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_on_each_other_are_seen() {
+        let family = |precision| Family { precision, stepping: None };
+        let [single, double] = [Precision::F32, Precision::F64].map(family);
+        let apart = [(single, (1.0, 1e-3)), (double, (1.0, 1e-9)), (double, (2.0, 0.0))];
+        assert_eq!(covered(&apart), 0.0);
+        let near = [(single, (1.0, 1e-3)), (double, (1.001, 1.01e-3)), (double, (9.0, 1e-9))];
+        assert_eq!(covered(&near), 2.0 / 3.0);
+        assert_eq!(covered(&[]), 0.0);
     }
 }
