@@ -185,7 +185,8 @@ impl Divided {
         };
         let few = |points: &Vec<f64>| points.len() <= most;
         let within = BETWEEN[densest..].iter().map(|parts| ratios(1.0, parts)).find(few);
-        within.unwrap_or_else(|| ratios((decades / most as f64).ceil().max(1.0), &[1.0]))
+        let every = || (2..).map(|every| ratios(f64::from(every), &[1.0])).find(few);
+        within.or_else(every).unwrap_or_default()
     }
 
     fn label(&self, coordinate: f64) -> String {

@@ -34,8 +34,11 @@ const ROW: f64 = 19.0;
 const MARKER: f64 = 3.6;
 const RING: f64 = 7.0;
 
+/// A line of more points than this need not have a marker at each.
+const MANY: usize = 40;
+
 /// Room for a number, across and upwards, pixels.
-const ROOM: [f64; 2] = [62.0, 30.0];
+const ROOM: [f64; 2] = [50.0, 30.0];
 
 impl Picture {
     /// All of it.
@@ -160,11 +163,10 @@ impl Chart {
         let size = fitting(&self.x.label, LABEL, room);
         let at = (middle, corner.1 + look.height() - MARGIN);
         canvas.text(&self.x.label, at, size, Anchor::Middle, ink);
-        let room = look.height() - 2.0 * MARGIN;
-        let size = fitting(&self.y.label, LABEL, room);
-        // A long one has the whole height for itself.
+        // A long one has the whole height below the title.
+        let (upper, lower) = (top - GAP, corner.1 + look.height() - MARGIN);
+        let size = fitting(&self.y.label, LABEL, lower - upper);
         let half = 0.5 * width(&self.y.label, size);
-        let (upper, lower) = (corner.1 + MARGIN, corner.1 + look.height() - MARGIN);
         let y = (0.5 * (top + bottom)).clamp(upper + half, (lower - half).max(upper + half));
         canvas.turned_text(&self.y.label, (corner.0 + MARGIN + LABEL * CAPITAL, y), size, ink);
     }
@@ -203,7 +205,17 @@ impl Series {
             }
         }
         if self.has_markers() {
-            places.iter().for_each(|&place| self.shape.draw(canvas, place, color));
+            // On a line of many points, those that would hide the one before have no marker.
+            let is_dense = self.mark == Mark::LineAndMarkers && places.len() > MANY;
+            let mut shown: Option<Place> = None;
+            for place in places {
+                let is_hidden =
+                    shown.is_some_and(|(x, y)| (place.0 - x).hypot(place.1 - y) < 2.5 * MARKER);
+                if !(is_dense && is_hidden) {
+                    self.shape.draw(canvas, place, color);
+                    shown = Some(place);
+                }
+            }
         }
     }
 

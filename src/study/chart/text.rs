@@ -17,29 +17,36 @@ pub(super) const CAPITAL: f64 = 0.729;
 static FONT: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(dejavu::sans::regular()).ok());
 
-/// The letters with their places from the start, and where the text ends, in units of the
-/// font; last what such a unit is, pixels.
-fn laid_out(
-    text: &str,
-    size: f64,
-) -> Option<(&'static FontRef<'static>, Vec<(char, f64)>, f64, f64)> {
-    let font = FONT.as_ref()?;
-    let unit = size / f64::from(font.units_per_em()?);
-    let (mut letters, mut x, mut before) = (Vec::new(), 0.0, None);
-    for letter in text.chars() {
-        let glyph = font.glyph_id(letter);
-        if let Some(before) = before.replace(glyph) {
-            x += f64::from(font.kern_unscaled(before, glyph));
+/// Letters in a row, in units of the font.
+struct Row {
+    font: &'static FontRef<'static>,
+    /// Each with its place from the start.
+    letters: Vec<(char, f64)>,
+    end: f64,
+    /// Of the font, pixels.
+    unit: f64,
+}
+
+impl Row {
+    fn of(text: &str, size: f64) -> Option<Self> {
+        let font = FONT.as_ref()?;
+        let unit = size / f64::from(font.units_per_em()?);
+        let (mut letters, mut end, mut before) = (Vec::new(), 0.0, None);
+        for letter in text.chars() {
+            let glyph = font.glyph_id(letter);
+            if let Some(before) = before.replace(glyph) {
+                end += f64::from(font.kern_unscaled(before, glyph));
+            }
+            letters.push((letter, end));
+            end += f64::from(font.h_advance_unscaled(glyph));
         }
-        letters.push((letter, x));
-        x += f64::from(font.h_advance_unscaled(glyph));
+        Some(Self { font, letters, end, unit })
     }
-    Some((font, letters, x, unit))
 }
 
 /// The width of a text in a size of the font, pixels.
 pub(super) fn width(text: &str, size: f64) -> f64 {
-    laid_out(text, size).map_or(0.0, |(_, _, end, unit)| end * unit)
+    Row::of(text, size).map_or(0.0, |row| row.end * row.unit)
 }
 
 /// The greatest size of the font, up to this one, in which a text takes no more room.
@@ -49,7 +56,7 @@ pub(super) fn fitting(text: &str, size: f64, room: f64) -> f64 {
 
 /// The outlines of a text that starts at the origin, closed, downwards positive, pixels.
 pub(super) fn outlines(text: &str, size: f64) -> Vec<Segment> {
-    let Some((font, letters, _, unit)) = laid_out(text, size) else { return Vec::new() };
+    let Some(Row { font, letters, unit, .. }) = Row::of(text, size) else { return Vec::new() };
     let mut segments = Vec::new();
     for (letter, start) in letters {
         let Some(outline) = font.outline(font.glyph_id(letter)) else { continue };

@@ -26,6 +26,7 @@ fn its_folder_has_all() {
         "points.jsonl",
         "report.txt",
         "scene.toml",
+        "work-precision.pdf",
         "work-precision.png",
         "work-precision.svg",
     ];
