@@ -35,7 +35,8 @@ Examples:
   carom study error gas.toml --times 0.5,1,2      at these times
   carom study error gas.toml --precision f64 --dt 1e-2,1e-3,1e-4
   carom study error rough-gas --lanes scalar,4,8,16,auto --threads 1,2
-  carom study error bouncing-ball --of energy     judged by the energy")]
+  carom study error bouncing-ball --of energy     judged by the energy
+  carom study error box.toml --norm max           by the sphere that is farthest off")]
     Error(error::ErrorArguments),
     /// The stress suite: extremes and long runs against the laws that should hold.
     ///

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::mean_square;
 use super::invariants::Invariants;
+use super::norm::Norm;
 use crate::bodies::Bodies;
 use crate::engine::World;
 use crate::lane::Lane;
@@ -29,6 +29,17 @@ pub struct Truth<T: Real = DoubleDouble> {
     periodic: Option<PeriodicBox<DoubleDouble>>,
     /// The potential energy that bodies can fall through.
     fall: f64,
+}
+
+/// How far each body is from what it should be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Errors {
+    /// Of the centres, length.
+    pub position: Vec<f64>,
+    /// Of the velocities, length per time.
+    pub velocity: Vec<f64>,
+    /// Of the orientations, rad.
+    pub orientation: Vec<f64>,
 }
 
 /// How far a state is from what it should be. Of bodies, the root of the mean
@@ -70,34 +81,45 @@ impl<T: Real> Truth<T> {
         Self { time: world.time(), bodies, invariants, gravity, periodic, fall }
     }
 
-    /// How far the bodies of a world that should be here are from it.
+    /// How far each body of a world that should be here is from it.
     #[must_use]
-    pub fn deviation<U: Real>(&self, bodies: &Bodies<U>) -> Deviation {
+    pub fn errors<U: Real>(&self, bodies: &Bodies<U>) -> Errors {
         let of_each = |distance: &dyn Fn(usize) -> f64| -> Vec<f64> {
             (0..bodies.len().min(self.bodies.len())).map(distance).collect()
         };
-        let root_mean_square = |values: &[f64]| mean_square(values.iter().copied()).sqrt();
-        let positions = of_each(&|index| {
+        let position = of_each(&|index| {
             let should = self.bodies.position_of(index).cast::<DoubleDouble>();
             let difference = bodies.position_of(index).cast::<DoubleDouble>() - should;
             let nearest = self.periodic.map_or(difference, |space| space.nearest(difference));
             nearest.length().high()
         });
-        let velocities = of_each(&|index| {
+        let velocity = of_each(&|index| {
             let should = self.bodies.velocity_of(index).cast::<DoubleDouble>();
             (bodies.velocity_of(index).cast::<DoubleDouble>() - should).length().high()
         });
-        let orientations = of_each(&|index| {
+        let orientation = of_each(&|index| {
             angle_between(bodies.orientation_of(index), self.bodies.orientation_of(index))
         });
+        Errors { position, velocity, orientation }
+    }
+
+    /// How far the bodies of a world that should be here are from it.
+    #[must_use]
+    pub fn deviation<U: Real>(&self, bodies: &Bodies<U>) -> Deviation {
+        self.deviation_of(bodies, &self.errors(bodies))
+    }
+
+    /// The same where the errors of each of these bodies are known.
+    #[must_use]
+    pub fn deviation_of<U: Real>(&self, bodies: &Bodies<U>, errors: &Errors) -> Deviation {
         let invariants = Invariants::of(bodies, self.gravity);
         let [energy, momentum, angular_momentum] =
             invariants.change_since(&self.invariants, self.fall);
         Deviation {
-            position: root_mean_square(&positions),
-            position_worst: positions.iter().copied().fold(0.0, f64::max),
-            velocity: root_mean_square(&velocities),
-            orientation: root_mean_square(&orientations),
+            position: Norm::RootMeanSquare.of(&errors.position),
+            position_worst: Norm::Maximum.of(&errors.position),
+            velocity: Norm::RootMeanSquare.of(&errors.velocity),
+            orientation: Norm::RootMeanSquare.of(&errors.orientation),
             energy,
             momentum,
             angular_momentum,

@@ -25,7 +25,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::{Journal, Order as Turn, Point, Study, StudyError, Subject, Watch};
+use super::{Journal, Norm, Order as Turn, Point, Study, StudyError, Subject, Watch};
 use crate::scene::{Precision, SceneFile};
 use crate::vec3::Vec3;
 use conclusions::Motion;
@@ -61,6 +61,7 @@ pub struct WorkPrecision {
     scale: Scale,
     motion: Motion,
     quantity: Quantity,
+    norm: Norm,
 }
 
 impl WorkPrecision {
@@ -91,7 +92,14 @@ impl WorkPrecision {
         };
         let has_field = scene.gravity.to_array() != Vec3::<f64>::ZERO.to_array();
         let motion = Motion { has_field, has_collisions: horizon.collisions > 0 };
-        let study = Self { file: file.clone(), sweep, scale, motion, quantity: asked.quantity };
+        let study = Self {
+            file: file.clone(),
+            sweep,
+            scale,
+            motion,
+            quantity: asked.quantity,
+            norm: asked.norm,
+        };
         let numbers = study.times().len() as f64 * scene.bodies.len() as f64 * 19.0;
         if numbers > MOST_NUMBERS {
             return Err(StudyError::Asked(format!(
@@ -99,6 +107,24 @@ impl WorkPrecision {
                  steps that divide them",
                 scene.bodies.len(),
                 study.times().len()
+            )));
+        }
+        if let Norm::Body(body) = asked.norm
+            && body >= scene.bodies.len()
+        {
+            return Err(StudyError::Asked(format!(
+                "there is no body {body}: the scene has {}, counted from 0",
+                scene.bodies.len()
+            )));
+        }
+        if asked.norm != Norm::RootMeanSquare && !study.sweep.keeps_bodies(scene.bodies.len()) {
+            return Err(StudyError::Asked(format!(
+                "the errors of {} bodies at {} times in {} methods are too many to keep, and \
+                 another norm than the root of the mean square needs them; give fewer times, \
+                 steps or methods",
+                scene.bodies.len(),
+                study.sweep.times.len(),
+                study.sweep.methods.len()
             )));
         }
         Ok(study)
@@ -172,6 +198,14 @@ impl Study for WorkPrecision {
         outcomes: Vec<Outcome>,
         others: Option<f64>,
     ) -> Result<WorkPrecisionReport, StudyError> {
+        let in_norm = |outcome: Outcome| {
+            outcome.in_norm(self.norm).ok_or_else(|| {
+                let reason = "points of this folder have no errors of single bodies, which \
+                              another norm is made of; take --restart, or another folder";
+                StudyError::Asked(reason.to_owned())
+            })
+        };
+        let outcomes = outcomes.into_iter().map(in_norm).collect::<Result<_, _>>()?;
         Ok(WorkPrecisionReport::new(self, outcomes, others))
     }
 }

@@ -9,7 +9,7 @@ use carom::study::chart::Look;
 use carom::study::work_precision::{
     Asked, Family, Found, Quantity, Theory, WorkPrecision, WorkPrecisionReport,
 };
-use carom::study::{Folder, Journal, Report, Study};
+use carom::study::{Folder, Journal, Norm, Report, Study};
 
 use super::scene;
 
@@ -256,4 +256,41 @@ fn steps_that_look_alike_are_two() {
     study.measure(&journal, &()).unwrap();
     drop(journal);
     assert_eq!(study.journal(&folder).unwrap().len(), study.sweep().methods.len());
+}
+
+/// Another norm, or another body, is made of the points that are there.
+#[test]
+fn another_norm_needs_no_second_run() {
+    let file = scene(BOX);
+    let asked = Asked { precisions: vec![Precision::F64], ..quick() };
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = Folder::open(temporary.path()).unwrap();
+    let in_norm = |norm| {
+        let study = WorkPrecision::new(&file, &Asked { norm, ..asked.clone() }).unwrap();
+        study.measure(&study.journal(&folder).unwrap(), &()).unwrap()
+    };
+    let rms = in_norm(Norm::RootMeanSquare);
+    let journal = std::fs::read(temporary.path().join("points.jsonl")).unwrap();
+    let [max, mean] = [Norm::Maximum, Norm::Mean].map(in_norm);
+    let bodies: Vec<_> = (0..24).map(|body| in_norm(Norm::Body(body))).collect();
+    assert_eq!(std::fs::read(temporary.path().join("points.jsonl")).unwrap(), journal);
+    for (k, outcome) in rms.outcomes.iter().enumerate() {
+        for (l, moment) in outcome.moments.iter().enumerate() {
+            let of =
+                |report: &WorkPrecisionReport| report.outcomes[k].moments[l].deviation.unwrap();
+            let (rms, max, mean) = (moment.deviation.unwrap(), of(&max), of(&mean));
+            // Single errors are kept to three digits.
+            let is_near = |a: f64, b: f64| (a - b).abs() <= 2e-3 * b;
+            assert!(is_near(max.position, rms.position_worst));
+            assert!(max.position >= rms.position * 0.998 && rms.position >= mean.position * 0.998);
+            let of_each: Vec<f64> = bodies.iter().map(|report| of(report).velocity).collect();
+            let squares = of_each.iter().map(|error| error * error).sum::<f64>();
+            assert!(is_near((squares / 24.0).sqrt(), rms.velocity));
+            assert_eq!((max.energy, mean.momentum), (rms.energy, rms.momentum));
+        }
+    }
+    assert!(max.to_string().contains("greatest of all bodies"), "{max}");
+    let beyond = Asked { norm: Norm::Body(24), ..asked };
+    let refused = WorkPrecision::new(&file, &beyond).map(drop).unwrap_err();
+    assert!(refused.to_string().contains("no body 24"), "{refused}");
 }

@@ -4,6 +4,7 @@ use carom::engine::Lanes;
 use carom::motion::Integrator;
 use carom::scene::Precision;
 use carom::scene::{EngineKind, Impact};
+use carom::study::Norm;
 use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
 use clap::Args;
 
@@ -61,6 +62,11 @@ pub struct ErrorArguments {
           default_value = "position")]
     of: Quantity,
 
+    /// What the errors of all bodies are made one by: rms, max, l1 (their mean) or body=N, one of
+    /// them from 0; another one needs no second run
+    #[arg(long, value_name = "NORM", value_parser = norm, default_value = "rms")]
+    norm: Norm,
+
     #[command(flatten)]
     output: StudyOutput,
 }
@@ -83,6 +89,18 @@ const QUANTITIES: [(&str, Quantity); 6] = [
     ("angular-momentum", Quantity::AngularMomentum),
 ];
 
+fn norm(text: &str) -> Result<Norm, String> {
+    match text {
+        "rms" => Ok(Norm::RootMeanSquare),
+        "max" => Ok(Norm::Maximum),
+        "l1" => Ok(Norm::Mean),
+        _ => {
+            let body = text.strip_prefix("body=").and_then(|body| body.parse().ok());
+            body.map(Norm::Body).ok_or_else(|| "it must be rms, max, l1 or body=N".to_owned())
+        }
+    }
+}
+
 impl ErrorArguments {
     /// Makes the study, and prints its report.
     pub fn run(self) -> Result<(), Failure> {
@@ -99,6 +117,7 @@ impl ErrorArguments {
             threads: self.threads.into_iter().map(|threads| threads as usize).collect(),
             runs: self.runs,
             quantity: self.of,
+            norm: self.norm,
         };
         self.output.conduct(&WorkPrecision::new(&file, &asked)?)
     }

@@ -176,8 +176,8 @@ impl fmt::Display for WorkPrecisionReport {
             writeln!(f, "{limit}")?;
         }
         if !self.advice.is_empty() {
-            let Self { quantity, .. } = self;
-            writeln!(f, "\nFor an error of {quantity} ({}) of, use", quantity.unit())?;
+            let Self { quantity, norm, .. } = self;
+            writeln!(f, "\nFor an error of {quantity} ({}) of, use", quantity.unit(*norm))?;
             write!(f, "{}", self.advice_lines())?;
         }
         writeln!(f, "\n{}", self.errors())?;

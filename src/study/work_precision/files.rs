@@ -40,6 +40,7 @@ pub struct MethodRecord {
     momentum: Option<f64>,
     angular_momentum: Option<f64>,
     state_hash: String,
+    norm: String,
 }
 
 impl Report for WorkPrecisionReport {
@@ -92,6 +93,7 @@ impl Report for WorkPrecisionReport {
                         momentum: figure(Quantity::Momentum),
                         angular_momentum: figure(Quantity::AngularMomentum),
                         state_hash: outcome.state_hash.clone(),
+                        norm: self.norm.to_string(),
                     }
                 })
             })
@@ -178,7 +180,7 @@ impl WorkPrecisionReport {
         Chart {
             title: format!("{of}, up to time {:.4}", self.time),
             x: Axis::new("wall time / s", Scale::Logarithmic).reaching(all_points().map(|p| p.0)),
-            y: Axis::new(self.quantity.axis(), Scale::Logarithmic)
+            y: Axis::new(&self.quantity.axis(self.norm), Scale::Logarithmic)
                 .reaching(all_points().map(|p| p.1)),
             series,
         }

@@ -10,8 +10,8 @@ use crate::observe::{StateHash, state_hash};
 use crate::real::Real;
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::clock::{Timing, Variant, outlook, rounds, seconds};
-use crate::study::deviation::Deviation;
-use crate::study::{Course, StudyError};
+use crate::study::deviation::{Deviation, Errors};
+use crate::study::{Course, Norm, Packed, StudyError};
 
 /// What was measured of a method.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +23,31 @@ pub struct Outcome {
     pub timings: Vec<Timing>,
     /// Of the last state.
     pub state_hash: String,
+    /// Of each of the moments, the errors of each body's place, velocity and orientation, in
+    /// a journal of points that are not too many.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<[Packed; 3]>,
+}
+
+impl Outcome {
+    /// The same with the errors of bodies in another norm than the root of the mean square,
+    /// and without those of each; `None` where they have not been kept.
+    pub(super) fn in_norm(mut self, norm: Norm) -> Option<Self> {
+        let bodies = core::mem::take(&mut self.bodies);
+        if norm == Norm::RootMeanSquare {
+            return Some(self);
+        }
+        if bodies.len() != self.moments.len() {
+            return None;
+        }
+        for (moment, errors) in self.moments.iter_mut().zip(&bodies) {
+            let Some(deviation) = &mut moment.deviation else { continue };
+            let [position, velocity, orientation] =
+                errors.each_ref().map(|errors| norm.of(&errors.errors()));
+            *deviation = Deviation { position, velocity, orientation, ..*deviation };
+        }
+        Some(self)
+    }
 }
 
 /// The error at a time.
@@ -62,12 +87,18 @@ fn measure_in<T: Compiled>(
     let end = sweep.times.last().copied().unwrap_or(0.0);
     let scene = method.scene::<T>(file, end)?;
     let mut world = World::new(scene.clone(), Execution::default())?;
-    let mut moments = Vec::new();
+    let (mut moments, mut bodies) = (Vec::new(), Vec::new());
     for &stated in &sweep.times {
         advance(&mut world, stated)?;
         let time = method.time_near(stated);
         let Some(state) = reference.at(time) else { continue };
-        let deviation = state.truth.deviation(&world.bodies());
+        let now = world.bodies();
+        let errors = state.truth.errors(&now);
+        let deviation = state.truth.deviation_of(&now, &errors);
+        if sweep.keeps_bodies(now.len()) {
+            let Errors { position, velocity, orientation } = &errors;
+            bodies.push([position, velocity, orientation].map(|errors| Packed::new(errors)));
+        }
         moments.push(Moment {
             time,
             collisions: collisions_of_a_body(&world),
@@ -82,7 +113,7 @@ fn measure_in<T: Compiled>(
     };
     let mut variants: Vec<_> = sweep.executions.iter().map(variant).collect();
     let timings = rounds(&mut variants, sweep.runs)?;
-    Ok(Outcome { moments, timings, state_hash: hash.to_string() })
+    Ok(Outcome { moments, timings, state_hash: hash.to_string(), bodies })
 }
 
 /// Advances a world to the time nearest to a stated one.

@@ -4,6 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::study::Norm;
 use crate::study::deviation::Deviation;
 
 /// What an error can be of.
@@ -50,25 +51,32 @@ impl Quantity {
     }
 
     /// What an axis of errors relative to the greatest radius or the speed is called.
-    pub(super) fn axis(self) -> &'static str {
+    pub(super) fn axis(self, norm: Norm) -> String {
+        let of_bodies = |what: &str, scale: &str| {
+            let body = match norm {
+                Norm::Body(body) => format!(" of body {body}"),
+                _ => String::new(),
+            };
+            format!("{}{what} error{body} / {scale}", norm.adjective())
+        };
         match self {
-            Self::Position => "RMS position error / greatest radius",
-            Self::Velocity => "RMS velocity error / RMS speed",
-            Self::Orientation => "RMS orientation error / rad",
-            Self::Energy => "relative energy error",
-            Self::Momentum => "momentum error / sum of momenta",
-            Self::AngularMomentum => "angular momentum error / sum of angular momenta",
+            Self::Position => of_bodies("position", "greatest radius"),
+            Self::Velocity => of_bodies("velocity", "RMS speed"),
+            Self::Orientation => of_bodies("orientation", "rad"),
+            Self::Energy => "relative energy error".to_owned(),
+            Self::Momentum => "momentum error / sum of momenta".to_owned(),
+            Self::AngularMomentum => "angular momentum error / sum of angular momenta".to_owned(),
         }
     }
 
-    /// Its unit.
+    /// Its unit, and of bodies the norm.
     #[must_use]
-    pub fn unit(self) -> &'static str {
+    pub fn unit(self, norm: Norm) -> String {
         match self {
-            Self::Position => "length, root mean square",
-            Self::Velocity => "length per time, root mean square",
-            Self::Orientation => "rad, root mean square",
-            Self::Energy | Self::Momentum | Self::AngularMomentum => "of the whole",
+            Self::Position => format!("length, {norm}"),
+            Self::Velocity => format!("length per time, {norm}"),
+            Self::Orientation => format!("rad, {norm}"),
+            Self::Energy | Self::Momentum | Self::AngularMomentum => "of the whole".to_owned(),
         }
     }
 }

@@ -11,7 +11,7 @@ use super::quantity::Quantity;
 use super::reference::is_lost;
 use super::sweep::Sweep;
 use super::{Method, Scale, WorkPrecision};
-use crate::study::{Machine, Subject};
+use crate::study::{Machine, Norm, Subject};
 
 /// What was measured of a scene's methods.
 #[derive(Clone, Debug, Serialize)]
@@ -22,6 +22,8 @@ pub struct WorkPrecisionReport {
     pub subject: Subject,
     /// By what an error is judged.
     pub quantity: Quantity,
+    /// And by which norm of all bodies.
+    pub norm: Norm,
     /// The time that is judged.
     pub time: f64,
     /// What errors are small against.
@@ -52,11 +54,12 @@ const BUSY: f64 = 0.2;
 
 impl WorkPrecisionReport {
     pub(super) fn new(study: &WorkPrecision, outcomes: Vec<Outcome>, others: Option<f64>) -> Self {
-        let WorkPrecision { ref file, ref sweep, ref scale, motion, quantity } = *study;
+        let WorkPrecision { ref file, ref sweep, ref scale, motion, quantity, norm } = *study;
         let mut report = Self {
             machine: Machine::here(),
             subject: Subject::of(file),
             quantity,
+            norm,
             time: 0.0,
             scale: scale.clone(),
             sweep: sweep.clone(),
@@ -162,7 +165,8 @@ impl WorkPrecisionReport {
         let mut deviations = self.outcomes.iter().flat_map(|outcome| {
             outcome.moments.get(self.judged).and_then(|moment| moment.deviation)
         });
-        let few = deviations.any(|deviation| deviation.position_worst > 8.0 * deviation.position);
+        let few = self.norm == Norm::RootMeanSquare
+            && deviations.any(|deviation| deviation.position_worst > 8.0 * deviation.position);
         if few && orders.iter().any(is_below) {
             notes.push(
                 "An order below 1: the mean square is that of the few spheres that met another one \

@@ -12,7 +12,7 @@ use crate::motion::Integrator;
 use crate::scene::EngineKind;
 use crate::scene::Impact;
 use crate::scene::{Precision, Scene, SceneFile};
-use crate::study::StudyError;
+use crate::study::{Norm, StudyError};
 
 /// What a person asks for; what is left out is chosen to suit the scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,6 +39,8 @@ pub struct Asked {
     pub runs: Option<usize>,
     /// By what an error is judged; what is measured does not depend on it.
     pub quantity: Quantity,
+    /// And by which norm of all bodies.
+    pub norm: Norm,
 }
 
 /// What is compared.
@@ -136,6 +138,17 @@ impl Sweep {
             return Err(StudyError::Asked(format!("{runs} runs: from 1 to {MOST} can be made")));
         }
         Ok(Self { times, methods, executions: executions(asked), runs, notes })
+    }
+}
+
+/// The most errors of single bodies that a journal keeps: 160 MB of its text.
+const MOST_KEPT: usize = 20_000_000;
+
+impl Sweep {
+    /// Whether the errors of each of so many bodies are kept.
+    pub(super) fn keeps_bodies(&self, bodies: usize) -> bool {
+        let moments = self.methods.len() * self.times.len();
+        bodies.saturating_mul(moments) <= MOST_KEPT
     }
 }
 
