@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the studies behind docs/accuracy.md: their reports, their pictures,
-# and the parts of the page that are taken from the reports.
+# and the parts of the page that are taken from the reports; and the table of
+# docs/textbook.md.
 #
 #   docs/studies/make.sh             # all, about a quarter of an hour on two cores
 #   docs/studies/make.sh --quick     # with the stress suite a hundred times smaller
@@ -65,3 +66,15 @@ awk '
     END { exit failed }
 ' docs/accuracy.md >"$results/accuracy.md"
 mv "$results/accuracy.md" docs/accuracy.md
+
+# The table between `<!-- textbook -->` and `<!-- end -->`.
+cargo run --locked --release --example textbook >"$results/textbook.txt"
+awk -v table="$results/textbook.txt" '
+    /^<!-- end -->$/ { skipping = 0 }
+    !skipping { print }
+    /^<!-- textbook -->$/ {
+        while ((getline line < table) > 0) print line
+        skipping = 1
+    }
+' docs/textbook.md >"$results/textbook.md"
+mv "$results/textbook.md" docs/textbook.md
