@@ -1,15 +1,14 @@
-//! Charts: measured points and laws, drawn once, and written as SVG, PNG and PDF.
+//! Charts: measured points and laws, drawn as SVG and PNG, and as PDF with the feature `pdf`.
 
 mod axis;
 mod canvas;
 mod draw;
 mod look;
-mod pdf;
-mod png;
-mod svg;
 mod text;
 
 use std::path::Path;
+
+use plotters::prelude::{BitMapBackend, IntoDrawingArea, SVGBackend};
 
 use super::StudyError;
 use super::folder::Folder;
@@ -93,7 +92,7 @@ pub enum Format {
     Svg,
     /// Two of its pixels for each one of the [look](Look), in either direction.
     Png,
-    /// Lines, and text as outlines: a printer needs no font.
+    /// Made of the SVG, with its font; it needs the feature `pdf`.
     Pdf,
 }
 
@@ -109,6 +108,12 @@ impl Format {
             Self::Png => "png",
             Self::Pdf => "pdf",
         }
+    }
+
+    /// Whether this crate is built with it.
+    #[must_use]
+    pub fn is_built(self) -> bool {
+        self != Self::Pdf || cfg!(feature = "pdf")
     }
 
     /// The one that a file's name ends with.
@@ -151,34 +156,95 @@ impl From<Chart> for Picture {
 }
 
 impl Picture {
-    /// Writes `NAME.svg`, `NAME.png` and `NAME.pdf` into a folder.
+    /// Writes `NAME.svg` and `NAME.png` into a folder, with the feature `pdf` also `NAME.pdf`.
     ///
     /// # Errors
     /// If a file cannot be written.
     pub fn write(&self, folder: &Folder, name: &str, look: &Look) -> Result<(), StudyError> {
-        let canvas = self.drawn(look);
-        Format::ALL.into_iter().try_for_each(|format| {
+        let formats = Format::ALL.into_iter().filter(|format| format.is_built());
+        formats.into_iter().try_for_each(|format| {
             let name = format!("{name}.{}", format.ending());
             let failed = |reason| StudyError::Picture { path: folder.path().join(&name), reason };
-            folder.write(&name, &encoded(&canvas, format).map_err(failed)?)
+            folder.write(&name, &self.bytes(format, look).map_err(failed)?)
         })
     }
 
     /// The bytes of the picture's file.
     ///
     /// # Errors
-    /// If it cannot be drawn, as a sentence.
+    /// If it cannot be drawn, or the format is not [built in](Format::is_built), as a sentence.
     pub fn bytes(&self, format: Format, look: &Look) -> Result<Vec<u8>, String> {
-        encoded(&self.drawn(look), format)
+        match format {
+            Format::Svg => Ok(self.svg(look)?.into_bytes()),
+            Format::Png => self.png(look),
+            Format::Pdf => pdf(&self.svg(look)?),
+        }
+    }
+
+    fn svg(&self, look: &Look) -> Result<String, String> {
+        /// Places are whole numbers in the file.
+        const FINE: f64 = 8.0;
+        let mut text = String::new();
+        let size = self.size(look);
+        let (width, height) = fine(size, FINE);
+        let area = SVGBackend::with_string(&mut text, (width, height)).into_drawing_area();
+        let mut canvas = Canvas::new(area, FINE, look.ground());
+        self.draw(&mut canvas, look);
+        canvas.finish()?;
+        let of = |width: String, height: String| format!("width=\"{width}\" height=\"{height}\"");
+        let fine = of(width.to_string(), height.to_string());
+        Ok(text.replacen(&fine, &of(size.0.to_string(), size.1.to_string()), 1))
+    }
+
+    fn png(&self, look: &Look) -> Result<Vec<u8>, String> {
+        /// For fine screens.
+        const FINE: f64 = 2.0;
+        let size = fine(self.size(look), FINE);
+        let mut pixels = vec![0; 3 * size.0 as usize * size.1 as usize];
+        let area = BitMapBackend::with_buffer(&mut pixels, size).into_drawing_area();
+        let mut canvas = Canvas::new(area, FINE, look.ground());
+        self.draw(&mut canvas, look);
+        canvas.finish()?;
+        encoded(&pixels, size).map_err(|error| error.to_string())
     }
 }
 
-fn encoded(canvas: &Canvas, format: Format) -> Result<Vec<u8>, String> {
-    match format {
-        Format::Svg => Ok(svg::text(canvas).into_bytes()),
-        Format::Png => png::bytes(canvas).map_err(|error| error.to_string()),
-        Format::Pdf => Ok(pdf::bytes(canvas)),
-    }
+/// The size in pixels of a file that has so many for each one of a picture.
+fn fine((width, height): (f64, f64), pixels: f64) -> (u32, u32) {
+    ((width * pixels).ceil() as u32, (height * pixels).ceil() as u32)
+}
+
+/// The file of a picture of three bytes a pixel, row by row.
+fn encoded(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    // The unit is the metre: 192 to the inch.
+    let dims = png::PixelDimensions { xppu: 7559, yppu: 7559, unit: png::Unit::Meter };
+    encoder.set_pixel_dims(Some(dims));
+    let mut file = encoder.write_header()?;
+    file.write_image_data(pixels)?;
+    file.finish()?;
+    Ok(bytes)
+}
+
+/// The file of a picture, made of its SVG.
+#[cfg(feature = "pdf")]
+fn pdf(svg: &str) -> Result<Vec<u8>, String> {
+    use svg2pdf::usvg::{Options, Tree};
+    use svg2pdf::{ConversionOptions, PageOptions};
+
+    let mut options = Options::default();
+    options.fontdb_mut().load_font_data(dejavu::sans::regular().to_vec());
+    let tree = Tree::from_str(svg, &options).map_err(|error| error.to_string())?;
+    let page = PageOptions { dpi: 96.0 };
+    svg2pdf::to_pdf(&tree, ConversionOptions::default(), page).map_err(|error| error.to_string())
+}
+
+#[cfg(not(feature = "pdf"))]
+fn pdf(_: &str) -> Result<Vec<u8>, String> {
+    Err("this program is built without PDF: write an .svg, or build with --features pdf".to_owned())
 }
 
 #[cfg(test)]
@@ -215,11 +281,16 @@ mod tests {
         }
         let png = std::fs::read(folder.path().join("orders.png"))?;
         assert!(png.starts_with(b"\x89PNG"));
-        let pdf = std::fs::read(folder.path().join("orders.pdf"))?;
-        assert!(pdf.starts_with(b"%PDF-") && pdf.len() > 20_000, "{} bytes", pdf.len());
+        if Format::Pdf.is_built() {
+            let pdf = std::fs::read(folder.path().join("orders.pdf"))?;
+            assert!(pdf.starts_with(b"%PDF-") && pdf.len() > 10_000, "{} bytes", pdf.len());
+        }
         // Nothing else is left, now that the folder is no longer locked.
         drop(folder);
-        assert_eq!(std::fs::read_dir(temporary.path())?.count(), 3);
+        assert_eq!(
+            std::fs::read_dir(temporary.path())?.count(),
+            Format::ALL.iter().filter(|format| format.is_built()).count()
+        );
         if let Some(path) = std::env::var_os("CAROM_KEEP_CHART") {
             std::fs::copy(temporary.path().join("orders.png"), path)?;
         }
@@ -233,11 +304,11 @@ mod tests {
         };
         let light = text(&Look::default())?;
         let dark = text(&Look { theme: Theme::Dark, ..Look::default() })?;
-        assert!(light.contains("#ffffff") && !dark.contains("#ffffff"));
+        assert!(light.contains("#FFFFFF") && !dark.contains("#FFFFFF"));
         let narrow = text(&Look { width: 300, ..Look::default() })?;
         assert!(narrow.contains("width=\"600\""), "two charts of 300 pixels");
         // Text keeps its size.
-        let size = |svg: &str| svg.matches("font-size=\"13\"").count() > 0;
+        let size = |svg: &str| svg.contains("font-size=\"104\"");
         assert!(size(&light) && size(&narrow));
         Ok(())
     }

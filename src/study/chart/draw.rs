@@ -1,6 +1,8 @@
 //! Draw: charts on a canvas.
 
 use super::axis::{Divided, Tick};
+use plotters::prelude::DrawingBackend;
+
 use super::canvas::{Anchor, Canvas, Place};
 use super::look::{Color, Look};
 use super::text::{CAPITAL, fitting, width};
@@ -41,27 +43,34 @@ const MANY: usize = 40;
 const ROOM: [f64; 2] = [50.0, 30.0];
 
 impl Picture {
-    /// All of it.
-    pub(super) fn drawn(&self, look: &Look) -> Canvas {
-        let rows = || self.charts.chunks(if self.charts.len() > 3 { 2 } else { 3 });
-        let row_height = |row: &[Chart]| {
-            let legends = row.iter().map(|chart| Legend::of(chart, look).height());
-            look.height() + legends.fold(0.0, f64::max)
-        };
-        let columns = rows().map(<[Chart]>::len).max().unwrap_or(1).max(1);
-        let height: f64 = rows().map(row_height).sum();
-        let size = (f64::from(look.width) * columns as f64, height.max(1.0));
-        let mut canvas = Canvas::new(size, look.ground());
+    /// Width and height, pixels.
+    pub(super) fn size(&self, look: &Look) -> (f64, f64) {
+        let columns = self.rows().map(<[Chart]>::len).max().unwrap_or(1).max(1);
+        let height: f64 = self.rows().map(|row| row_height(row, look)).sum();
+        (f64::from(look.width) * columns as f64, height.max(1.0))
+    }
+
+    /// Draws all of it.
+    pub(super) fn draw<B: DrawingBackend>(&self, canvas: &mut Canvas<B>, look: &Look) {
         let mut top = 0.0;
-        for row in rows() {
+        for row in self.rows() {
             for (column, chart) in row.iter().enumerate() {
                 let corner = (column as f64 * f64::from(look.width), top);
-                chart.draw(&mut canvas, corner, look);
+                chart.draw(canvas, corner, look);
             }
-            top += row_height(row);
+            top += row_height(row, look);
         }
-        canvas
     }
+
+    /// The charts that stand side by side.
+    fn rows(&self) -> impl Iterator<Item = &[Chart]> {
+        self.charts.chunks(if self.charts.len() > 3 { 2 } else { 3 })
+    }
+}
+
+fn row_height(row: &[Chart], look: &Look) -> f64 {
+    let legends = row.iter().map(|chart| Legend::of(chart, look).height());
+    look.height() + legends.fold(0.0, f64::max)
 }
 
 /// Where the points of a chart are, and how many pixels are between the ends of its axes.
@@ -91,7 +100,7 @@ impl Field {
 
 impl Chart {
     /// Draws it below and to the right of a corner.
-    fn draw(&self, canvas: &mut Canvas, corner: Place, look: &Look) {
+    fn draw<B: DrawingBackend>(&self, canvas: &mut Canvas<B>, corner: Place, look: &Look) {
         let field = self.field(corner, look);
         self.draw_axes(canvas, &field, corner, look);
         for series in &self.series {
@@ -122,7 +131,13 @@ impl Chart {
         }
     }
 
-    fn draw_axes(&self, canvas: &mut Canvas, field: &Field, corner: Place, look: &Look) {
+    fn draw_axes<B: DrawingBackend>(
+        &self,
+        canvas: &mut Canvas<B>,
+        field: &Field,
+        corner: Place,
+        look: &Look,
+    ) {
         let Field { left, right, top, bottom, .. } = *field;
         let (ink, faint, line) = (look.ink(1.0), look.ink(0.1), look.ink(0.6));
         let down = NUMBER * CAPITAL;
@@ -178,7 +193,7 @@ fn most(length: f64, room: f64) -> usize {
 }
 
 impl Series {
-    fn draw(&self, canvas: &mut Canvas, field: &Field, look: &Look) {
+    fn draw<B: DrawingBackend>(&self, canvas: &mut Canvas<B>, field: &Field, look: &Look) {
         let color = look.color(self.color);
         let places: Vec<Place> =
             self.points.iter().filter_map(|point| field.place(point)).collect();
@@ -188,7 +203,7 @@ impl Series {
             Mark::Dashes => canvas.dashes(&places, [6.0, 4.0], 1.6, color),
             Mark::Rings => {
                 for &place in &places {
-                    canvas.circle(place, RING, Some(1.4), color);
+                    canvas.ring(place, RING, 1.4, color);
                 }
             }
             Mark::Guide => {
@@ -226,18 +241,18 @@ impl Series {
 
 impl Shape {
     /// A marker of this shape; all have about the same area.
-    fn draw(self, canvas: &mut Canvas, (x, y): Place, color: Color) {
+    fn draw<B: DrawingBackend>(self, canvas: &mut Canvas<B>, (x, y): Place, color: Color) {
         match self {
-            Self::Disc => canvas.circle((x, y), MARKER, None, color),
+            Self::Disc => canvas.disc((x, y), MARKER, color),
             Self::Square => {
                 let half = 0.9 * MARKER;
                 let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
-                canvas.polygon(corners.map(|(u, v)| (x + u, y + v)).to_vec(), color);
+                canvas.polygon(&corners.map(|(u, v)| (x + u, y + v)), color);
             }
             Self::Triangle => {
                 let (side, up) = (1.2 * MARKER, 1.3 * MARKER);
                 let corners = [(0.0, -up), (side, 0.7 * up), (-side, 0.7 * up)];
-                canvas.polygon(corners.map(|(u, v)| (x + u, y + v)).to_vec(), color);
+                canvas.polygon(&corners.map(|(u, v)| (x + u, y + v)), color);
             }
         }
     }
@@ -267,7 +282,7 @@ impl<'a> Legend<'a> {
         if rows > 0.0 { rows * ROW + MARGIN } else { 0.0 }
     }
 
-    fn draw(&self, canvas: &mut Canvas, corner: Place, look: &Look) {
+    fn draw<B: DrawingBackend>(&self, canvas: &mut Canvas<B>, corner: Place, look: &Look) {
         for (k, series) in self.series.iter().enumerate() {
             let (column, row) = ((k % self.columns) as f64, (k / self.columns) as f64);
             let (x, y) = (corner.0 + MARGIN + column * self.entry, corner.1 + (row + 0.5) * ROW);
@@ -276,7 +291,7 @@ impl<'a> Legend<'a> {
             match series.mark {
                 Mark::Line | Mark::LineAndMarkers => canvas.line(&line, 1.6, color),
                 Mark::Dashes => canvas.dashes(&line, [6.0, 3.0], 1.6, color),
-                Mark::Rings => canvas.circle((x + 12.0, y), RING, Some(1.4), color),
+                Mark::Rings => canvas.ring((x + 12.0, y), RING, 1.4, color),
                 Mark::Markers | Mark::Guide => {}
             }
             if series.has_markers() {

@@ -26,7 +26,6 @@ fn its_folder_has_all() {
         "points.jsonl",
         "report.txt",
         "scene.toml",
-        "work-precision.pdf",
         "work-precision.png",
         "work-precision.svg",
     ];

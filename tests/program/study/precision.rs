@@ -16,7 +16,6 @@ fn writes_all_files_and_goes_on() {
     let names = [
         "divergence.png",
         "divergence.svg",
-        "drift.pdf",
         "drift.png",
         "drift.svg",
         "points.jsonl",
