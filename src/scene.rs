@@ -34,6 +34,7 @@ mod builtin;
 mod check;
 mod check_bodies;
 mod checked;
+mod coming;
 mod description;
 #[cfg(feature = "files")]
 mod dilated;
@@ -45,6 +46,7 @@ mod filling;
 #[cfg(feature = "files")]
 mod fixed;
 mod generate;
+mod inlet;
 #[cfg(feature = "files")]
 mod lines;
 mod obstacles;
@@ -62,6 +64,8 @@ mod reading;
 mod settings;
 #[cfg(feature = "files")]
 mod source;
+#[cfg(feature = "files")]
+mod sources;
 mod spheres;
 #[cfg(feature = "files")]
 mod state_file;
@@ -70,9 +74,11 @@ pub use builder::SceneBuilder;
 #[cfg(feature = "files")]
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use checked::Scene;
+pub(crate) use coming::Room;
 pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;
+pub use inlet::Inlet;
 #[cfg(feature = "files")]
 pub use outputs::AskedAnalysis;
 pub(crate) use quick::QuickCheck;

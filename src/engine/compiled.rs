@@ -1,12 +1,13 @@
 //! Compiled: the precisions that engines are there for.
 
 use super::frame::{Frame, Framed};
+use super::idle::Idle;
 use super::interface::{EventEngine, StepEngine};
 use super::{EngineError, Execution, batch, event_driven, sensed, stepped};
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
 use crate::real::Real;
-use crate::scene::Scene;
+use crate::scene::{EngineKind, Scene};
 
 /// A precision that this crate has engines for.
 ///
@@ -64,7 +65,10 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn EventEngine<Self>>, EngineError> {
-                let driver = |scene| -> Result<Box<dyn EventEngine<Self>>, EngineError> {
+                let driver = |scene: Scene<Self>| -> Result<Box<dyn EventEngine<Self>>, EngineError> {
+                    if scene.bodies.is_empty() {
+                        return Ok(Box::new(Idle::new(&scene, EngineKind::EventDriven, execution)?));
+                    }
                     Ok(Box::new(event_driven::Driver::new(scene, execution)?))
                 };
                 let start = |scene| sensed::event_driven(scene, driver);
@@ -78,7 +82,10 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn StepEngine<Self>>, EngineError> {
-                let driver = |scene| -> Result<Box<dyn StepEngine<Self>>, EngineError> {
+                let driver = |scene: Scene<Self>| -> Result<Box<dyn StepEngine<Self>>, EngineError> {
+                    if scene.bodies.is_empty() {
+                        return Ok(Box::new(Idle::new(&scene, EngineKind::Stepped, execution)?));
+                    }
                     Ok(Box::new(stepped::Driver::new(scene, execution)?))
                 };
                 let start = |scene| sensed::stepped(scene, driver);

@@ -3,6 +3,7 @@
 use super::check_bodies::Sources;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
+use super::inlet::Inlet;
 use super::origin::Origin;
 use super::settings::{Encounters, EngineKind, SteppedSettings};
 use super::{check, check_bodies, generate};
@@ -55,6 +56,10 @@ pub struct Scene<T: Real> {
     pub surroundings: Vec<Shape<T>>,
     /// What these parts are called, as many; `None` without a name.
     pub part_names: Vec<Option<String>>,
+    /// Whether they take out of the world the spheres that touch them, as many.
+    pub removes: Vec<bool>,
+    /// Where spheres come in, each with its seed.
+    pub inlets: Vec<Inlet>,
     /// What only the stepped engine asks.
     pub stepped: SteppedSettings,
     /// The spheres, in the order of the file.
@@ -101,6 +106,8 @@ impl<T: Real> Scene<T> {
                 .map_or(Periodicity::Open, |space| Periodicity::Box(GivenBox::rounded(space))),
             surroundings: self.surroundings.iter().cloned().map(GivenShape::rounded).collect(),
             part_names: self.part_names.clone(),
+            removes: self.removes.clone(),
+            inlets: self.inlets.clone(),
             stepped: self.stepped,
             entries: vec![Entry::Ready(Box::new(bodies))],
             ..Description::new(self.name.clone(), Origin::code(&self.name))
@@ -119,6 +126,8 @@ impl<T: Real> Scene<T> {
             periodic: self.periodic,
             surroundings: self.surroundings.clone(),
             part_names: self.part_names.clone(),
+            removes: self.removes.clone(),
+            inlets: self.inlets.clone(),
             stepped: self.stepped,
             bodies: Bodies::none(),
         }
@@ -144,6 +153,9 @@ impl<T: Real> Scene<T> {
         check::settings(&asked)?;
         let ranges = check::entries(&asked)?;
         let periodic = generate::periodic_box(&asked)?;
+        for inlet in &mut asked.inlets {
+            inlet.seed.get_or_insert(asked.seed);
+        }
         let origins: Vec<_> = asked.entries.iter().map(Entry::known_origin).collect();
         let bodies = generate::bodies(&mut asked, periodic.map(|given| given.exact), &ranges)?;
         let periodic = periodic.map(|given| given.rounded);
@@ -163,6 +175,8 @@ impl<T: Real> Scene<T> {
             periodic,
             surroundings: asked.surroundings.into_iter().map(|given| given.rounded).collect(),
             part_names: asked.part_names,
+            removes: asked.removes,
+            inlets: asked.inlets,
             stepped: asked.stepped,
             bodies,
         })
