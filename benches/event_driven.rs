@@ -28,8 +28,7 @@ use std::time::Instant;
 
 use carom::contact::Surface;
 use carom::engine::{Compiled, EventDriven, Execution, Lanes, Order};
-use carom::real::Real;
-use carom::scene::{Scene, SceneError, Spheres};
+use carom::scene::{Buildable, Scene, SceneError, Spheres};
 use carom::space::PeriodicBox;
 use fluid::Fluid;
 
@@ -145,7 +144,7 @@ fn rows() -> Vec<Row> {
 }
 
 impl Row {
-    fn scene<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+    fn scene<T: Buildable>(&self) -> Result<Scene<T>, SceneError> {
         match self.matter {
             Matter::Fluid { density, surface } => {
                 Fluid { bodies: self.bodies, density, diameter: 1.0, surface, seed: 1 }.scene()

@@ -74,8 +74,8 @@
 //!
 //! The [stepped](Stepped) engine misses what begins and ends within a step,
 //! unless impacts are looked for [inside of it](Impact::SubStep). The
-//! [event-driven](EventDriven) engine misses nothing, works on one thread, and
-//! gives an [error](EngineError::Stalled) for a sphere that rests on something
+//! [event-driven](EventDriven) engine misses nothing, works on one thread where bodies are
+//! few ([`Order`]), and gives an [error](EngineError::Stalled) for a sphere that rests on something
 //! under gravity, which never stops colliding. Bodies are spheres; what is
 //! fixed is one of the shapes of [`surroundings`]. Collisions lose no energy:
 //! there is no restitution below 1 and no friction between "none" and "perfect".

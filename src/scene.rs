@@ -35,6 +35,7 @@ mod check;
 mod check_bodies;
 mod checked;
 mod coming;
+mod compiled;
 mod description;
 #[cfg(feature = "files")]
 mod dilated;
@@ -75,6 +76,7 @@ pub use builder::SceneBuilder;
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use checked::Scene;
 pub(crate) use coming::Room;
+pub use compiled::Buildable;
 pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;

@@ -7,19 +7,19 @@
 //! | [`stability`] | what holds under stress, each law judged |
 //! | [`scaling`] | time and memory against size, threads and lanes |
 //!
-//! A study is made of [points](Point), whose results go into the [`Journal`] of a
+//! A [`Study`] is made of [points](Point), whose results go into the [`Journal`] of a
 //! [`Folder`] as soon as they are there: an interrupted study goes on where it
-//! was. A folder is not needed:
+//! was. What follows from them is its [`Report`]. A folder is not needed:
 //!
 //! ```
 //! use carom::scene::SceneFile;
-//! use carom::study::Journal;
-//! use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
+//! use carom::study::work_precision::{Asked, WorkPrecision};
+//! use carom::study::{Journal, Study};
 //!
 //! let file = SceneFile::builtin("superball").ok_or("no such scene")?;
 //! let asked = Asked { duration: Some(2.0), runs: Some(1), ..Asked::default() };
 //! let study = WorkPrecision::new(&file, &asked)?;
-//! let report = study.measure(&Journal::unwritten(), Quantity::Position, &())?;
+//! let report = study.measure(&Journal::unwritten(), &())?;
 //! let (_, best) = report.advice.last().ok_or("no method")?;
 //! assert!(best.error < 1e-13);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -41,6 +41,7 @@ mod point;
 pub mod precision;
 pub mod scaling;
 mod schedule;
+mod skeleton;
 pub mod stability;
 mod subject;
 pub mod table;
@@ -53,4 +54,5 @@ pub use journal::Journal;
 pub use machine::Machine;
 pub use point::{Order, Point, Watch};
 pub use schedule::Schedule;
+pub use skeleton::{Report, Study};
 pub use subject::Subject;

@@ -4,6 +4,8 @@
 //! and no item's result depends on another's, so any number of threads gives
 //! the same bits.
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 
 /// One thread, or a pool of several.
@@ -45,10 +47,19 @@ impl Workers {
     }
 
     /// Does the work of each item, side by side, of many that differ in length. It allocates
-    /// nothing, and is compiled for each kind of work.
+    /// nothing.
     pub fn spread<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
         match &self.pool {
-            Some(pool) if items.len() > 1 => pool.install(|| items.par_iter_mut().for_each(work)),
+            Some(pool) if items.len() > 1 => {
+                let workers = items.len().min(pool.current_num_threads());
+                let queue = Mutex::new(items.iter_mut());
+                let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+                fan_out(pool, workers, &|| {
+                    while let Some(item) = next() {
+                        work(item);
+                    }
+                });
+            }
             _ => items.iter_mut().for_each(work),
         }
     }
@@ -72,4 +83,15 @@ type Task<'a> = &'a mut (dyn FnMut() + Send);
 /// Not generic: what hands out work is compiled once, not for each kind of item.
 fn share(pool: &rayon::ThreadPool, tasks: &mut [Task]) {
     pool.install(|| tasks.par_iter_mut().for_each(|task| task()));
+}
+
+/// Not generic either: as many workers do the same work side by side.
+fn fan_out(pool: &rayon::ThreadPool, workers: usize, work: &(dyn Fn() + Sync)) {
+    fn split(workers: usize, work: &(dyn Fn() + Sync)) {
+        match workers / 2 {
+            0 => work(),
+            half => drop(rayon::join(|| split(half, work), || split(workers - half, work))),
+        }
+    }
+    pool.install(|| split(workers, work));
 }

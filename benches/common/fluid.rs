@@ -1,8 +1,7 @@
 //! The fluid that the event-driven engine is measured on.
 
 use carom::contact::Surface;
-use carom::real::Real;
-use carom::scene::{Scene, SceneError, Spheres};
+use carom::scene::{Buildable, Scene, SceneError, Spheres};
 
 /// Equal spheres of mass 1 and temperature 1 in a periodic cube, at the start
 /// on a lattice. Rough ones spin, at the same temperature.
@@ -22,7 +21,7 @@ pub struct Fluid {
 
 impl Fluid {
     /// The fluid at its start.
-    pub fn scene<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+    pub fn scene<T: Buildable>(&self) -> Result<Scene<T>, SceneError> {
         let mut spheres = Spheres::fcc(self.bodies)
             .number_density(self.density / self.diameter.powi(3))
             .radius(self.diameter / 2.0)

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use carom::contact::Surface;
 use carom::real::Real;
-use carom::scene::{Impact, Scene, SceneBuilder, SceneError, Spheres};
+use carom::scene::{Buildable, Impact, Scene, SceneBuilder, SceneError, Spheres};
 use carom::surroundings::Cuboid;
 
 /// Share of the container's volume that the spheres fill.
@@ -32,7 +32,7 @@ pub fn container<T: Real>(side: f64) -> Cuboid<T> {
 
 /// A gas of equal spheres in a closed container, without gravity; rough ones
 /// spin.
-pub fn gas<T: Real>(bodies: usize, surface: Surface) -> Result<Scene<T>, SceneError> {
+pub fn gas<T: Buildable>(bodies: usize, surface: Surface) -> Result<Scene<T>, SceneError> {
     let (mut spheres, side) = spheres(bodies);
     if surface == Surface::Rough {
         spheres = spheres.spin_temperature(1.0);

@@ -12,7 +12,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::analyse::KINDS;
 use super::events::bodies;
-use super::study::{Study, StudyFolder};
+use super::study::{StudyCommand, StudyFolder};
 use super::variation::MOST_RUNS;
 
 /// Simulates rigid spheres in motion: free flight and elastic collisions,
@@ -163,7 +163,7 @@ Each writes tables and pictures into a folder, one study at a time. An
 interrupted study goes on where it was when it is started again.")]
     Study {
         #[command(subcommand)]
-        study: Study,
+        study: StudyCommand,
     },
 }
 

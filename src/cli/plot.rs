@@ -117,13 +117,7 @@ fn charts(
         }
         let series = &mut charts[own].series;
         let points = values.iter().zip(column).filter_map(|(time, value)| time.zip(*value));
-        series.push(Series {
-            name: name.clone(),
-            color: Some(series.len()),
-            mark: Mark::Line,
-            points: points.collect(),
-            ..Series::default()
-        });
+        series.push(Series::new(name, points).color(series.len()).mark(Mark::Line));
     }
     charts
 }

@@ -9,17 +9,18 @@ pub mod watch;
 use std::path::{Path, PathBuf};
 
 use carom::scene::SceneFile;
-use carom::study::{Folder, Journal};
+use carom::study::{Folder, Report, Study};
 use clap::{Args, Subcommand};
-use serde::Serialize;
 
 use super::arguments::{SceneArguments, positive};
 use super::failure::Failure;
+use super::print;
 use super::scene_argument::scene_file;
+use watch::Teller;
 
 /// The studies.
 #[derive(Debug, Subcommand)]
-pub enum Study {
+pub enum StudyCommand {
     /// Run time against error: what each method costs in a scene, and how far
     /// off it is.
     ///
@@ -82,7 +83,7 @@ both also as .png, and scene.toml into its folder.")]
     Precision(precision::PrecisionArguments),
 }
 
-impl Study {
+impl StudyCommand {
     /// Makes the study.
     pub fn run(self) -> Result<(), Failure> {
         match self {
@@ -156,19 +157,24 @@ pub struct StudyFolder {
 }
 
 impl StudyFolder {
-    /// The folder and the points that it has. `study` is all that the results
-    /// depend on.
-    pub fn open(
-        &self,
-        default: &str,
-        study: &impl Serialize,
-    ) -> Result<(Folder, Journal), Failure> {
-        let path = self.output.as_deref().unwrap_or(Path::new(default));
-        let folder = Folder::open(path)?;
+    /// The folder, without the points that are to be forgotten.
+    pub fn open(&self, default: &str) -> Result<Folder, Failure> {
+        let folder = Folder::open(self.output.as_deref().unwrap_or(Path::new(default)))?;
         if self.restart {
             folder.forget()?;
         }
-        let journal = folder.journal(study)?;
-        Ok((folder, journal))
+        Ok(folder)
+    }
+
+    /// Makes a study, writes all that it found, and prints its report.
+    pub fn conduct(&self, study: &impl Study) -> Result<(), Failure> {
+        let folder = self.open(&study.folder())?;
+        let path = folder.path().display();
+        let teller = Teller::new(folder.path());
+        let report = study.measure(&study.journal(&folder)?, &teller)?;
+        drop(teller);
+        report.write(&folder)?;
+        print(&format!("{report}\nTables and pictures are in {path}.\n"))?;
+        Ok(report.verdict()?)
     }
 }

@@ -65,8 +65,8 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     // What is varied is no part of it: more values and seeds keep the runs that are there.
     let common = Subject { seed: 0, ..Subject::of(&base) };
     let options = (arguments.scene.engine, arguments.scene.precision.map(|p| p.to_string()));
-    let (folder, journal) =
-        arguments.folder.open(&format!("sweep-{}", base.name), &("sweep", common, options))?;
+    let folder = arguments.folder.open(&format!("sweep-{}", base.name))?;
+    let journal = folder.journal(&("sweep", common, options))?;
     let teller = Teller::new(folder.path());
     let outcomes = side_by_side(arguments.scene.threads, || {
         let points: Vec<_> = planned.iter().map(|planned| planned.point(execution)).collect();

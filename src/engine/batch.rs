@@ -2,7 +2,8 @@
 //!
 //! Scenes of one shape stand in packs, the same body of all scenes side by side (`pack`),
 //! and take their steps together (`step`, `meet`). What lanes do not take runs alone, each
-//! scene in a world of its own, on all threads (`setting` says which, `start` sorts them).
+//! scene in a world of its own (`setting` says which, `start` sorts them). `work` is what all
+//! threads do.
 
 mod fault;
 mod meet;
@@ -11,25 +12,27 @@ mod setting;
 mod start;
 mod step;
 mod view;
+mod work;
 
 use std::collections::BTreeMap;
 
-use super::{
-    ChangeError, Collisions, Compiled, EngineError, Event, Execution, LONGEST_RUN, Plan, World,
-};
+use super::{ChangeError, Collisions, Compiled, EngineError, Event, Execution, Plan, World};
 use crate::bodies::Bodies;
 use crate::real::Real;
-use crate::scene::{MOST_STEPS, QuickCheck, Scene, SceneError};
+use crate::scene::{QuickCheck, Scene, SceneError};
 use crate::vec3::Vec3;
 use crate::workers::Workers;
 
 pub use fault::{BatchError, Fault};
 pub(super) use pack::Pack;
 pub(super) use setting::Setting;
+pub(super) use start::{Make, start};
 pub(super) use step::{Events, advance};
 pub use view::PackView;
+pub(super) use work::Going;
 
 use pack::Seat;
+use work::{Alone, steps_in};
 
 /// Steps after which the collisions of all scenes are reported.
 const REPORTED: u64 = 256;
@@ -45,29 +48,6 @@ enum Place {
     Alone(u32),
     /// It was no scene from the start.
     Nowhere,
-}
-
-/// A scene that runs alone.
-#[derive(Debug)]
-struct Alone<T: Real> {
-    scene: usize,
-    world: World<T>,
-    fault: Option<Fault>,
-    events: Vec<Event<T>>,
-}
-
-impl<T: Real> Alone<T> {
-    /// Notes why it does not go on, if it does not.
-    fn note(&mut self, done: Result<(), EngineError>) {
-        let bodies = self.world.bodies();
-        let mut columns = bodies.position.iter().chain(&bodies.velocity);
-        let is_finite = columns.all(|column| column.iter().all(|value| value.is_finite()));
-        self.fault = match done {
-            Err(error) => Some(Fault::Engine(error)),
-            Ok(()) if !is_finite => Some(Fault::NotFinite { time: self.world.time() }),
-            Ok(()) => None,
-        };
-    }
 }
 
 /// Many independent scenes in motion: one scene in each lane, packs of scenes on all
@@ -126,7 +106,7 @@ impl<T: Compiled> Batch<T> {
         vary: impl Fn(usize, &mut Scene<T>) + Sync,
     ) -> Result<Self, BatchError> {
         let check = QuickCheck::new(scene);
-        start::start(scene, count, execution, |k| {
+        T::start_batch(scene, count, execution, &|k| {
             let mut scene = scene.clone();
             vary(k, &mut scene);
             if check.accepts(&scene) { Ok(scene) } else { scene.checked_again() }
@@ -158,7 +138,7 @@ impl<T: Compiled> Batch<T> {
         let mut first = None;
         for k in 0..count {
             match (make(k), first) {
-                (Ok(scene), _) => return start::start(&scene, count, execution, make),
+                (Ok(scene), _) => return T::start_batch(&scene, count, execution, &make),
                 (Err(error), None) => first = Some(error),
                 (Err(_), kept) => first = kept,
             }
@@ -194,7 +174,7 @@ impl<T: Compiled> Batch<T> {
             return Err(EngineError::NoStep);
         }
         self.set_goals(|seat| steps.saturating_add(seat.steps));
-        self.go(|_, world| {
+        T::go(self, &|_, world| {
             if let World::Stepped(world) = world {
                 world.advance_steps(steps);
             }
@@ -211,7 +191,7 @@ impl<T: Compiled> Batch<T> {
     pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
         self.check_duration(duration)?;
         self.set_goals(|seat| seat.steps.saturating_add(steps_in(duration, seat.exact_dt)));
-        self.go(|_, world| world.advance(duration));
+        T::go(self, &|_, world| world.advance(duration));
         Ok(())
     }
 
@@ -242,7 +222,7 @@ impl<T: Compiled> Batch<T> {
         }
         start::regroup(&self.setting, &mut self.packs, &mut self.places);
         let durations = core::mem::take(&mut self.durations);
-        self.go(|scene, world| match world {
+        T::go(self, &|scene, world| match world {
             _ if !durations[scene].is_finite() || world.time() > 0.0 => Ok(()),
             World::Stepped(world) => {
                 world.advance_steps(steps_in(durations[scene], world.exact_dt()).max(1));
@@ -279,29 +259,7 @@ impl<T: Compiled> Batch<T> {
         mut on_event: impl FnMut(usize, &Event<T>),
     ) -> Result<(), EngineError> {
         self.check_duration(duration)?;
-        self.set_goals(|seat| seat.steps.saturating_add(steps_in(duration, seat.exact_dt)));
-        self.recorded.resize_with(self.packs.len(), Vec::new);
-        let Self { setting, workers, packs, alone, recorded, faults, .. } = self;
-        while packs.iter().any(Pack::is_under_way) {
-            let mut pieces: Vec<_> = packs.iter_mut().zip(&mut *recorded).collect();
-            workers.spread(&mut pieces, |(pack, events)| pack.go(setting, REPORTED, Some(events)));
-            for events in &mut *recorded {
-                events.sort_by_key(|(scene, _)| *scene);
-                events.iter().for_each(|(scene, event)| on_event(*scene, event));
-                events.clear();
-            }
-        }
-        workers.spread(alone, |alone| {
-            if !faults.contains_key(&alone.scene) {
-                let Alone { world, events, .. } = alone;
-                let done = world.for_each_event(duration, |event| events.push(*event));
-                alone.note(done);
-            }
-        });
-        for Alone { scene, events, .. } in alone {
-            events.drain(..).for_each(|event| on_event(*scene, &event));
-        }
-        self.find_faults();
+        T::tell_events(self, duration, &mut on_event);
         Ok(())
     }
 
@@ -363,37 +321,7 @@ impl<T: Compiled> Batch<T> {
     /// If there is no such scene in the batch, or the start is no scene; the batch is then as
     /// it was.
     pub fn reset(&mut self, scene: usize, start: &Scene<T>) -> Result<(), ChangeError> {
-        let place = self.place(scene)?;
-        let checked;
-        let start = if self.check.accepts(start) {
-            start
-        } else {
-            checked = start.checked_again()?;
-            &checked
-        };
-        match place {
-            Place::Lane { pack, lane } if self.setting.takes(start) => {
-                let pack = &mut self.packs[pack as usize];
-                pack.seat(&self.setting, lane as usize, scene, start);
-            }
-            place => {
-                let world = World::new(start.clone(), self.execution.threads(1))?;
-                let alone = Alone { scene, world, fault: None, events: Vec::new() };
-                match place {
-                    Place::Alone(old) => self.alone[old as usize] = alone,
-                    _ => {
-                        self.places[scene] = Place::Alone(self.alone.len() as u32);
-                        self.alone.push(alone);
-                    }
-                }
-                if let Place::Lane { pack, lane } = place {
-                    self.packs[pack as usize].vacate(&self.setting, lane as usize);
-                }
-            }
-        }
-        self.durations[scene] = start.duration.unwrap_or(f64::NAN);
-        self.faults.remove(&scene);
-        Ok(())
+        T::reset(self, scene, start)
     }
 }
 
@@ -603,41 +531,4 @@ impl<T: Real> Batch<T> {
             }
         }
     }
-}
-
-impl<T: Compiled> Batch<T> {
-    fn check_duration(&self, duration: f64) -> Result<(), EngineError> {
-        let seats = self.packs.iter().flat_map(|pack| &pack.moving.seats);
-        let lengths = seats.filter(|seat| seat.scene.is_some()).map(|seat| seat.exact_dt);
-        let alone = self.alone.iter().filter_map(|alone| match &alone.world {
-            World::Stepped(world) => Some(world.exact_dt()),
-            World::EventDriven(_) => None,
-        });
-        let dt = lengths.chain(alone).fold(f64::INFINITY, f64::min);
-        if !(0.0..LONGEST_RUN).contains(&duration) {
-            return Err(EngineError::NoDuration(duration));
-        }
-        if duration / dt > MOST_STEPS {
-            return Err(EngineError::Duration { duration, dt });
-        }
-        Ok(())
-    }
-
-    /// Lets all scenes go on: those in lanes to their goals.
-    fn go(&mut self, alone: impl Fn(usize, &mut World<T>) -> Result<(), EngineError> + Sync) {
-        let Self { setting, workers, packs, .. } = self;
-        workers.spread(packs, |pack| pack.go(setting, u64::MAX, None));
-        workers.spread(&mut self.alone, |one| {
-            if !self.faults.contains_key(&one.scene) {
-                let done = alone(one.scene, &mut one.world);
-                one.note(done);
-            }
-        });
-        self.find_faults();
-    }
-}
-
-/// The whole number of steps that is nearest to a duration.
-fn steps_in(duration: f64, dt: f64) -> u64 {
-    if dt > 0.0 { (duration / dt).round() as u64 } else { 0 }
 }

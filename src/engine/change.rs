@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::flow::Flow;
 use super::handles::Handles;
-use super::{BodyHandle, EngineError, EventDriven, Execution, Stepped, World};
+use super::{BodyHandle, Compiled, EngineError, EventDriven, Execution, Stepped, World};
 use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
 use crate::scene::{Room, Scene, SceneError};
@@ -71,8 +71,8 @@ impl<T: Real> Base<T> {
     }
 }
 
-/// Lets a world go on as a scene now is.
-pub(super) type GoOn<W, T> = fn(&mut W, Scene<T>, Handles) -> Result<(), EngineError>;
+/// What lets a change take effect, where it is not known that its precision is compiled.
+pub(super) type Apply<T> = fn(Change<'_, T>) -> Result<(), ChangeError>;
 
 /// The world that is changed.
 #[derive(Debug)]
@@ -298,13 +298,17 @@ impl<'a, T: Real> Change<'a, T> {
     }
 }
 
-impl<T: Real> Change<'_, T> {
+impl<T: Compiled> Change<'_, T> {
     /// Lets all of it take effect, and the world go on from there.
     ///
     /// # Errors
     /// If a body does not exist, is put into another one or out of its container, if a figure
     /// cannot be, or if no body is left: the world is then as it was before the change.
     pub fn apply(self) -> Result<(), ChangeError> {
+        T::apply(self)
+    }
+
+    pub(super) fn take_effect(self) -> Result<(), ChangeError> {
         let Self { target, mut bodies, gravity, mut placed, removed, mut handles, .. } = self;
         if let Some(mistake) = self.mistake {
             return Err(mistake);
@@ -321,8 +325,8 @@ impl<T: Real> Change<'_, T> {
         let base = Scene { gravity, ..target.base().scene.clone() };
         let scene = base.with_placed(bodies, &placed)?;
         match target {
-            Target::Stepped(world) => (world.go_on)(world, scene, handles)?,
-            Target::EventDriven(world) => (world.go_on)(world, scene, handles)?,
+            Target::Stepped(world) => world.go_on(scene, handles)?,
+            Target::EventDriven(world) => world.go_on(scene, handles)?,
         }
         Ok(())
     }

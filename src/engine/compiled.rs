@@ -3,11 +3,14 @@
 use super::frame::{Frame, Framed};
 use super::idle::Idle;
 use super::interface::{EventEngine, StepEngine};
-use super::{EngineError, Execution, batch, event_driven, sensed, stepped};
+use super::{
+    Batch, BatchError, Change, ChangeError, EngineError, Event, Execution, batch, event_driven,
+    sensed, stepped,
+};
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
 use crate::real::Real;
-use crate::scene::{EngineKind, Scene};
+use crate::scene::{Buildable, EngineKind, Scene};
 
 /// A precision that this crate has engines for.
 ///
@@ -28,11 +31,14 @@ use crate::scene::{EngineKind, Scene};
 /// assert_eq!(collisions::<f32>()?, collisions::<f64>()?);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub trait Compiled: Real + sealed::Engines {}
+pub trait Compiled: Buildable + sealed::Engines {}
 
 pub(super) mod sealed {
-    use super::{EngineError, EventEngine, Execution, Real, Scene, StepEngine};
-    use crate::engine::batch::{Events, Pack, Setting};
+    use super::{
+        Batch, BatchError, Change, ChangeError, EngineError, Event, EventEngine, Execution, Real,
+        Scene, StepEngine,
+    };
+    use crate::engine::batch::{Events, Going, Make, Pack, Setting};
 
     /// What makes the engines of a precision; not generic, so that it is compiled
     /// in this crate.
@@ -53,6 +59,29 @@ pub(super) mod sealed {
             steps: u64,
             events: Option<&mut Events<Self>>,
         );
+
+        fn apply(change: Change<'_, Self>) -> Result<(), ChangeError>;
+
+        fn start_batch(
+            first: &Scene<Self>,
+            count: usize,
+            execution: Execution,
+            make: &Make<'_, Self>,
+        ) -> Result<Batch<Self>, BatchError>;
+
+        fn go(batch: &mut Batch<Self>, alone: &Going<'_, Self>);
+
+        fn tell_events(
+            batch: &mut Batch<Self>,
+            duration: f64,
+            on_event: &mut dyn FnMut(usize, &Event<Self>),
+        );
+
+        fn reset(
+            batch: &mut Batch<Self>,
+            scene: usize,
+            start: &Scene<Self>,
+        ) -> Result<(), ChangeError>;
     }
 }
 
@@ -102,6 +131,39 @@ macro_rules! compile {
                 events: Option<&mut batch::Events<Self>>,
             ) {
                 batch::advance(setting, pack, steps, events);
+            }
+
+            fn apply(change: Change<'_, Self>) -> Result<(), ChangeError> {
+                change.take_effect()
+            }
+
+            fn start_batch(
+                first: &Scene<Self>,
+                count: usize,
+                execution: Execution,
+                make: &batch::Make<'_, Self>,
+            ) -> Result<Batch<Self>, BatchError> {
+                batch::start(first, count, execution, make)
+            }
+
+            fn go(batch: &mut Batch<Self>, alone: &batch::Going<'_, Self>) {
+                batch.go_on(alone);
+            }
+
+            fn tell_events(
+                batch: &mut Batch<Self>,
+                duration: f64,
+                on_event: &mut dyn FnMut(usize, &Event<Self>),
+            ) {
+                batch.go_and_tell(duration, on_event);
+            }
+
+            fn reset(
+                batch: &mut Batch<Self>,
+                scene: usize,
+                start: &Scene<Self>,
+            ) -> Result<(), ChangeError> {
+                batch.put_back(scene, start)
             }
         }
     )*};

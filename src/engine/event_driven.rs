@@ -41,7 +41,7 @@ mod undo;
 mod window;
 
 use super::account::Effort;
-use super::change::{Base, GoOn};
+use super::change::{Apply, Base};
 use super::flow::counted;
 use super::handles::Handles;
 use super::interface::{EventEngine, Stretch};
@@ -78,8 +78,8 @@ pub(super) use snapshot::EventState;
 pub struct EventDriven<T: Real> {
     engine: Box<dyn EventEngine<T>>,
     base: Base<T>,
-    /// Goes on as a scene now is.
-    pub(super) go_on: GoOn<Self, T>,
+    /// Lets a change of it take effect.
+    pub(super) apply: Apply<T>,
 }
 
 impl<T: Compiled> EventDriven<T> {
@@ -116,7 +116,7 @@ impl<T: Compiled> EventDriven<T> {
     /// None yet for a checked scene.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let base = Base::new(&scene, execution);
-        Ok(Self { engine: T::event_driven(scene, execution)?, base, go_on: Self::go_on })
+        Ok(Self { engine: T::event_driven(scene, execution)?, base, apply: T::apply })
     }
 
     /// A scene that goes on from what has elapsed.
@@ -128,11 +128,11 @@ impl<T: Compiled> EventDriven<T> {
     ) -> Result<Self, EngineError> {
         let base = Base::later(&scene, execution, handles);
         let engine = Later::new(scene, elapsed, |scene| T::event_driven(scene, execution))?;
-        Ok(Self { engine: Box::new(engine), base, go_on: Self::go_on })
+        Ok(Self { engine: Box::new(engine), base, apply: T::apply })
     }
 
     /// Goes on as the scene now is.
-    fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
+    pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
         let elapsed = Elapsed::of(&*self.engine, 0);
         let mut later = Self::later(scene, self.base.execution, elapsed, handles)?;
         later.base.flow = self.base.flow.take();

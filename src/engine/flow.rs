@@ -7,7 +7,7 @@
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
-use super::change::{Change, ChangeError};
+use super::change::{Apply, Change, ChangeError};
 use super::handles::Handles;
 #[cfg(feature = "files")]
 use super::snapshot::Misfit;
@@ -172,6 +172,7 @@ impl Flow {
     /// Exchanges what is due at a time. What cannot be stays to be done.
     fn exchange<T: Real>(
         &mut self,
+        apply: Apply<T>,
         mut change: Change<'_, T>,
         time: f64,
     ) -> Result<(), EngineError> {
@@ -189,7 +190,7 @@ impl Flow {
         if self.next() <= time {
             self.bring_in(&mut change, &mut state, time);
         }
-        change.apply().map_err(|error| match error {
+        apply(change).map_err(|error| match error {
             ChangeError::Engine(error) => error,
             other => EngineError::Exchange { time, reason: other.to_string() },
         })?;
@@ -232,7 +233,7 @@ macro_rules! exchange {
         match $world.base_mut().flow.take() {
             None => Ok(()),
             Some(mut flow) => {
-                let done = flow.exchange($world.change(), time);
+                let done = flow.exchange($world.apply, $world.change(), time);
                 $world.base_mut().flow = Some(flow);
                 done
             }

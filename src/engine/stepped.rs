@@ -29,7 +29,7 @@ mod snapshot;
 mod state;
 mod struck;
 
-use super::change::{Base, GoOn};
+use super::change::{Apply, Base};
 use super::flow::counted;
 use super::handles::Handles;
 use super::interface::StepEngine;
@@ -69,8 +69,8 @@ pub(super) use snapshot::StepState;
 pub struct Stepped<T: Real> {
     engine: Box<dyn StepEngine<T>>,
     base: Base<T>,
-    /// Goes on as a scene now is.
-    pub(super) go_on: GoOn<Self, T>,
+    /// Lets a change of it take effect.
+    pub(super) apply: Apply<T>,
 }
 
 impl<T: Compiled> Stepped<T> {
@@ -107,7 +107,7 @@ impl<T: Compiled> Stepped<T> {
     /// If the scene has no `dt`, or the system no threads to give.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let base = Base::new(&scene, execution);
-        Ok(Self { engine: T::stepped(scene, execution)?, base, go_on: Self::go_on })
+        Ok(Self { engine: T::stepped(scene, execution)?, base, apply: T::apply })
     }
 
     /// A scene that goes on from what has elapsed.
@@ -119,11 +119,11 @@ impl<T: Compiled> Stepped<T> {
     ) -> Result<Self, EngineError> {
         let base = Base::later(&scene, execution, handles);
         let engine = Later::new(scene, elapsed, |scene| T::stepped(scene, execution))?;
-        Ok(Self { engine: Box::new(engine), base, go_on: Self::go_on })
+        Ok(Self { engine: Box::new(engine), base, apply: T::apply })
     }
 
     /// Goes on as the scene now is.
-    fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
+    pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
         let elapsed = Elapsed::of(&*self.engine, self.engine.steps());
         let mut later = Self::later(scene, self.base.execution, elapsed, handles)?;
         later.base.flow = self.base.flow.take();

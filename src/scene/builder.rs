@@ -1,6 +1,7 @@
 //! The builder: a scene as code describes it.
 
 use super::checked::Scene;
+use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
 use super::inlet::Inlet;
@@ -440,7 +441,9 @@ impl<T: Real> SceneBuilder<T> {
         self.description.entries.push(Entry::Ready(Box::new(bodies)));
         self
     }
+}
 
+impl<T: Buildable> SceneBuilder<T> {
     /// Places the spheres, and checks everything.
     ///
     /// ```
@@ -457,7 +460,7 @@ impl<T: Real> SceneBuilder<T> {
     /// each other, spheres that overlap, lie in something solid or outside of
     /// their box, more spheres than there is room for, or none at all.
     pub fn build(self) -> Result<Scene<T>, SceneError> {
-        Scene::new(self.description)
+        T::checked(self.description, None)
     }
 }
 

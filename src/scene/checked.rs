@@ -1,6 +1,7 @@
 //! Checked: a scene without a mistake, and the way from its description.
 
 use super::check_bodies::Sources;
+use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
 use super::inlet::Inlet;
@@ -66,7 +67,7 @@ pub struct Scene<T: Real> {
     pub bodies: Bodies<T>,
 }
 
-impl<T: Real> Scene<T> {
+impl<T: Buildable> Scene<T> {
     /// The same scene with other bodies, which are checked as
     /// [`SceneBuilder::bodies`](super::SceneBuilder::bodies) has it: what a world has left is
     /// taken, however deep a step has left bodies in each other.
@@ -91,9 +92,21 @@ impl<T: Real> Scene<T> {
     /// # Errors
     /// If they cannot be in the scene: see [`SceneBuilder::build`](super::SceneBuilder::build).
     pub fn with_bodies(&self, bodies: Bodies<T>) -> Result<Self, SceneError> {
-        Self::new(self.description(bodies))
+        T::checked(self.description(bodies), None)
     }
 
+    /// [`with_bodies`](Scene::with_bodies) where a world has left them, but for those that
+    /// are `placed`, which are checked.
+    pub(crate) fn with_placed(
+        &self,
+        bodies: Bodies<T>,
+        placed: &[bool],
+    ) -> Result<Self, SceneError> {
+        T::checked(self.description(bodies.left_by_world()), Some(placed))
+    }
+}
+
+impl<T: Real> Scene<T> {
     fn description(&self, bodies: Bodies<T>) -> Description<T> {
         Description {
             engine: self.engine,
@@ -133,23 +146,12 @@ impl<T: Real> Scene<T> {
         }
     }
 
-    /// [`with_bodies`](Scene::with_bodies) where a world has left them, but for those that
-    /// are `placed`, which are checked.
-    pub(crate) fn with_placed(
-        &self,
-        bodies: Bodies<T>,
-        placed: &[bool],
-    ) -> Result<Self, SceneError> {
-        Self::checked(self.description(bodies.left_by_world()), Some(placed))
-    }
-
     /// Checks a description, places the spheres, and checks what they make
     /// together.
-    pub(super) fn new(asked: Description<T>) -> Result<Self, SceneError> {
-        Self::checked(asked, None)
-    }
-
-    fn checked(mut asked: Description<T>, placed: Option<&[bool]>) -> Result<Self, SceneError> {
+    pub(super) fn checked(
+        mut asked: Description<T>,
+        placed: Option<&[bool]>,
+    ) -> Result<Self, SceneError> {
         check::settings(&asked)?;
         let ranges = check::entries(&asked)?;
         let periodic = generate::periodic_box(&asked)?;

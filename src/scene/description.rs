@@ -79,7 +79,7 @@ impl<T: Real> Entry<T> {
 
 /// All that a scene is made from.
 #[derive(Clone, Debug)]
-pub(super) struct Description<T: Real> {
+pub struct Description<T: Real> {
     pub(super) name: String,
     pub(super) engine: EngineKind,
     pub(super) duration: Option<f64>,

@@ -9,6 +9,7 @@ use super::assignment::{Assignment, Refused};
 use super::builtin;
 use super::check;
 use super::checked::Scene;
+use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::{Problem, SceneError};
 use super::fixed;
@@ -268,7 +269,12 @@ impl SceneFile {
     ///
     /// # Errors
     /// If a value, or what the values make together, is not possible.
-    pub fn build<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+    pub fn build<T: Buildable>(&self) -> Result<Scene<T>, SceneError> {
+        T::of_file(self)
+    }
+
+    /// What the scene is asked to be, in a precision.
+    pub(super) fn description<T: Real>(&self) -> Result<Description<T>, SceneError> {
         let origin = self.origin();
         let mut asked = Description::<T>::new(self.name.clone(), origin.clone());
         asked.engine = self.engine;
@@ -312,7 +318,7 @@ impl SceneFile {
         for (index, raw) in self.raw.inlet.iter().enumerate() {
             asked.inlets.push(sources::inlet(&origin, index, raw)?);
         }
-        Scene::new(asked)
+        Ok(asked)
     }
 
     /// Whether spheres come or go on the way.

@@ -3,6 +3,7 @@
 
 use super::check_bodies::has_narrow_slab;
 use super::checked::Scene;
+use super::compiled::Buildable;
 use super::error::SceneError;
 use super::settings::{Encounters, MOST_STEPS};
 use crate::column::Column;
@@ -88,7 +89,7 @@ impl<T: Real> QuickCheck<T> {
     }
 }
 
-impl<T: Real> Scene<T> {
+impl<T: Buildable> Scene<T> {
     /// The same scene, if all of it is right.
     pub(crate) fn checked_again(&self) -> Result<Self, SceneError> {
         self.with_bodies(self.bodies.clone())

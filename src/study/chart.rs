@@ -199,7 +199,24 @@ fn row_height(row: &[Chart]) -> u32 {
 type MarkerAt<C, B> = <EmptyElement<C, B> as Add<Polygon<(i32, i32)>>>::Output;
 
 impl Series {
-    fn color(&self) -> RGBColor {
+    /// Grey points that are joined, each with a marker.
+    pub fn new(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self { name: name.into(), points: points.into_iter().collect(), ..Self::default() }
+    }
+
+    /// The same in a colour of the palette.
+    #[must_use]
+    pub fn color(self, color: usize) -> Self {
+        Self { color: Some(color), ..self }
+    }
+
+    /// The same drawn in another way.
+    #[must_use]
+    pub fn mark(self, mark: Mark) -> Self {
+        Self { mark, ..self }
+    }
+
+    fn ink(&self) -> RGBColor {
         self.color.map_or(RGBColor(120, 120, 120), |k| PALETTE[k % PALETTE.len()])
     }
 
@@ -218,7 +235,13 @@ impl Series {
                 .collect(),
             Shape::Square => vec![(-3, -3), (3, -3), (3, 3), (-3, 3)],
         };
-        EmptyElement::at(place) + Polygon::new(corners, self.color().filled())
+        EmptyElement::at(place) + Polygon::new(corners, self.ink().filled())
+    }
+}
+
+impl From<Chart> for Picture {
+    fn from(chart: Chart) -> Self {
+        Self { charts: vec![chart] }
     }
 }
 
@@ -256,7 +279,7 @@ impl Chart {
         let columns = (SIZE.0 as i32 - LABELS) / entry;
         for (k, series) in (0..).zip(self.named()) {
             let (x, y) = (LABELS + k % columns * entry, LINE * (k / columns) + LINE / 2 - 4);
-            let stroke = series.color().stroke_width(2);
+            let stroke = series.ink().stroke_width(2);
             let dash = |from: i32, to: i32| PathElement::new([(x + from, y), (x + to, y)], stroke);
             match series.mark {
                 Mark::Line | Mark::LineAndMarkers => area.draw(&dash(0, 24))?,
@@ -313,7 +336,7 @@ impl Chart {
         ];
         chart.draw_series(edges.into_iter().flatten().map(|edge| PathElement::new(edge, thin)))?;
         for series in &self.series {
-            let color = series.color();
+            let color = series.ink();
             let places: Vec<(f64, f64)> = series.points.iter().filter_map(place).collect();
             let stroke = color.stroke_width(2);
             let line = places.iter().copied();

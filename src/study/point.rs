@@ -64,6 +64,11 @@ impl<'a, R: Serialize + DeserializeOwned + Send> Point<'a, R> {
         Self { key: key.into(), seconds, measure: Box::new(measure) }
     }
 
+    /// The same, named as a part of something.
+    pub(super) fn of(self, whole: &str) -> Self {
+        Self { key: format!("{whole}: {}", self.key), ..self }
+    }
+
     /// The results of all points, in their order: those that the journal has from
     /// an earlier time, and the others, each written down when it is done.
     ///

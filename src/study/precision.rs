@@ -4,8 +4,8 @@
 //!
 //! ```
 //! use carom::scene::SceneFile;
-//! use carom::study::Journal;
 //! use carom::study::precision::PrecisionStudy;
+//! use carom::study::{Journal, Study};
 //!
 //! let mut file = SceneFile::builtin("superball").ok_or("no such scene")?;
 //! file.duration = Some(2.0);
@@ -31,10 +31,9 @@ pub use divergence::RunPoint;
 pub use report::{PrecisionReport, SeriesRow};
 pub use side_by_side::{Comparison, SideBySide};
 
-use super::{Journal, Order, Point, StudyError, Subject, Watch};
+use super::{Journal, Order, Point, Study, StudyError, Subject, Watch};
 use crate::engine::Compiled;
 use crate::real::Real;
-use crate::scene::EngineKind;
 use crate::scene::SceneFile;
 use run::{Run, Track};
 
@@ -65,19 +64,12 @@ pub struct PrecisionStudy {
     samples: u32,
 }
 
-/// All that the results depend on.
-#[derive(Serialize)]
-struct Heading {
-    study: &'static str,
-    subject: Subject,
-    engine: EngineKind,
-    samples: u32,
-}
-
 /// What a point gives.
-#[derive(Serialize, Deserialize)]
-enum Outcome {
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Outcome {
+    /// The three precisions at the same times.
     SideBySide(Box<SideBySide>),
+    /// One of the further runs.
     Run(Track),
 }
 
@@ -108,52 +100,6 @@ impl PrecisionStudy {
         Ok(Self { file: file.clone(), duration, runs: runs as u32, samples: samples as u32 })
     }
 
-    /// All that its results depend on: what its journal is opened with. More
-    /// runs leave the others as they are.
-    #[must_use]
-    pub fn heading(&self) -> impl Serialize + use<> {
-        Heading {
-            study: "precision",
-            subject: Subject::of(&self.file),
-            engine: self.file.engine,
-            samples: self.samples,
-        }
-    }
-
-    /// Makes the study, or what the journal lacks of it.
-    ///
-    /// # Errors
-    /// If the engine can't run the scene in double-double, or the journal cannot
-    /// be written. An engine that stops in a lower precision is a result.
-    pub fn measure(
-        &self,
-        journal: &Journal,
-        watch: &dyn Watch,
-    ) -> Result<PrecisionReport, StudyError> {
-        let seconds = self.seconds();
-        let mut points = vec![Point::new("side by side", seconds * COST, || {
-            let side_by_side = SideBySide::measured(&self.file, self.duration, self.samples)?;
-            Ok(Outcome::SideBySide(Box::new(side_by_side)))
-        })];
-        for run in 1..self.runs {
-            points
-                .push(Point::new(format!("f32, run {run}"), seconds, move || self.run::<f32>(run)));
-            points
-                .push(Point::new(format!("f64, run {run}"), seconds, move || self.run::<f64>(run)));
-        }
-        let outcomes = Point::all(&points, journal, Order::AtOnce, watch)?;
-        let (mut side_by_side, mut tracks) = (None, [Vec::new(), Vec::new()]);
-        for (index, outcome) in outcomes.into_iter().enumerate() {
-            match outcome {
-                Outcome::SideBySide(found) => side_by_side = Some(*found),
-                Outcome::Run(track) => tracks[(index + 1) % 2].push(track),
-            }
-        }
-        let side_by_side = side_by_side
-            .ok_or_else(|| StudyError::Asked("the journal lacks its first point".to_owned()))?;
-        Ok(PrecisionReport::new(Subject::of(&self.file), self.file.engine, side_by_side, tracks))
-    }
-
     /// One of the further runs, from a start of its own.
     fn run<T: Compiled>(&self, number: u32) -> Result<Outcome, StudyError> {
         Ok(Outcome::Run(Track::of::<T>(&self.file, self.duration, self.samples, number)))
@@ -164,5 +110,53 @@ impl PrecisionStudy {
     fn seconds(&self) -> f64 {
         let run = Run::<f64>::new(&self.file, self.duration, self.samples, 0);
         run.and_then(|mut run| run.probe(PROBE)).unwrap_or(1.0)
+    }
+}
+
+impl Study for PrecisionStudy {
+    const NAME: &'static str = "precision";
+    const ORDER: Order = Order::AtOnce;
+    type Outcome = Outcome;
+    type Report = PrecisionReport;
+
+    fn subject(&self) -> Option<Subject> {
+        Some(Subject::of(&self.file))
+    }
+
+    /// More runs leave the others as they are.
+    fn settings(&self) -> impl Serialize {
+        (self.file.engine, self.samples)
+    }
+
+    fn points(&self, _: &Journal, _: &dyn Watch) -> Result<Vec<Point<'_, Outcome>>, StudyError> {
+        let seconds = self.seconds();
+        let mut points = vec![Point::new("side by side", seconds * COST, || {
+            let side_by_side = SideBySide::measured(&self.file, self.duration, self.samples)?;
+            Ok(Outcome::SideBySide(Box::new(side_by_side)))
+        })];
+        for run in 1..self.runs {
+            let [single, double] = PRECISIONS.map(|name| format!("{name}, run {run}"));
+            points.push(Point::new(single, seconds, move || self.run::<f32>(run)));
+            points.push(Point::new(double, seconds, move || self.run::<f64>(run)));
+        }
+        Ok(points)
+    }
+
+    /// An engine that stops in a lower precision is a result.
+    fn report(
+        &self,
+        outcomes: Vec<Outcome>,
+        _: Option<f64>,
+    ) -> Result<PrecisionReport, StudyError> {
+        let (mut side_by_side, mut tracks) = (None, [Vec::new(), Vec::new()]);
+        for (index, outcome) in outcomes.into_iter().enumerate() {
+            match outcome {
+                Outcome::SideBySide(found) => side_by_side = Some(*found),
+                Outcome::Run(track) => tracks[(index + 1) % 2].push(track),
+            }
+        }
+        let side_by_side = side_by_side
+            .ok_or_else(|| StudyError::Asked("the journal lacks its first point".to_owned()))?;
+        Ok(PrecisionReport::new(Subject::of(&self.file), self.file.engine, side_by_side, tracks))
     }
 }

@@ -8,8 +8,8 @@
 //!
 //! ```
 //! use carom::scene::SceneFile;
-//! use carom::study::Journal;
 //! use carom::study::scaling::{Scaling, Settings};
+//! use carom::study::{Journal, Report, Study};
 //!
 //! let file = SceneFile::builtin("hard-sphere-fluid").ok_or("no such scene")?;
 //! let settings = Settings { bodies: vec![108, 500], runs: 1, ..Settings::default() };
@@ -27,7 +27,7 @@ mod settings;
 
 use serde::Serialize;
 
-use super::{Journal, Machine, Order, Point, StudyError, Subject, Watch};
+use super::{Journal, Machine, Order, Point, Study, StudyError, Subject, Watch};
 use crate::scene::EngineKind;
 use crate::scene::{Precision, SceneFile};
 
@@ -40,20 +40,16 @@ use measure::{Measured, Task};
 /// This number of bodies, or fewer, is looked at beforehand.
 const SMALL: u64 = 1_000;
 
-/// The study of a scene. What it serialises to is all that its results depend
-/// on.
-#[derive(Clone, Debug, Serialize)]
+/// The study of a scene.
+#[derive(Clone, Debug)]
 pub struct Scaling {
     subject: Subject,
     machine: Machine,
     engine: EngineKind,
     settings: Settings,
-    #[serde(skip)]
     sizes: Vec<SceneFile>,
     /// What the time of all is estimated from, and how many bodies it has.
-    #[serde(skip)]
     small: (SceneFile, u64),
-    #[serde(skip)]
     longest: f64,
 }
 
@@ -87,16 +83,37 @@ impl Scaling {
         })
     }
 
-    /// Measures all points that the journal does not have.
-    ///
-    /// # Errors
-    /// If a scene of some size cannot be built or run, its collisions run out, or
-    /// the journal cannot be written.
-    pub fn measure(
+    /// What is to be done at a size.
+    fn task(&self, size: usize) -> Task<'_> {
+        Task {
+            file: &self.sizes[size],
+            bodies: self.settings.bodies[size],
+            longest: self.longest,
+            variants: self.settings.variants(size),
+            runs: self.settings.runs,
+        }
+    }
+}
+
+impl Study for Scaling {
+    const NAME: &'static str = "scaling";
+    const ORDER: Order = Order::OneByOne;
+    type Outcome = Measured;
+    type Report = ScalingReport;
+
+    fn subject(&self) -> Option<Subject> {
+        Some(self.subject.clone())
+    }
+
+    fn settings(&self) -> impl Serialize {
+        (&self.machine, self.engine, &self.settings)
+    }
+
+    fn points(
         &self,
         journal: &Journal,
-        watch: &dyn Watch,
-    ) -> Result<ScalingReport, StudyError> {
+        _: &dyn Watch,
+    ) -> Result<Vec<Point<'_, Measured>>, StudyError> {
         let sizes = self.settings.bodies.len();
         // From the smallest to the largest: what earlier points leave in the
         // allocator's hands is little beside what a later one takes.
@@ -114,27 +131,17 @@ impl Scaling {
             }
             false => measure::Probe::default(),
         };
-        let points: Vec<Point<'_, Measured>> = tasks()
-            .map(|(precision, task)| {
-                let key = format!("{} {} bodies", precision.name(), task.bodies);
-                Point::new(key, task.seconds(&probe), move || match precision {
-                    Precision::F32 => task.measure::<f32>(),
-                    Precision::F64 => task.measure::<f64>(),
-                })
+        let points = tasks().map(|(precision, task)| {
+            let key = format!("{} {} bodies", precision.name(), task.bodies);
+            Point::new(key, task.seconds(&probe), move || match precision {
+                Precision::F32 => task.measure::<f32>(),
+                Precision::F64 => task.measure::<f64>(),
             })
-            .collect();
-        let measured = Point::all(&points, journal, Order::OneByOne, watch)?;
-        Ok(ScalingReport::of(self, measured))
+        });
+        Ok(points.collect())
     }
 
-    /// What is to be done at a size.
-    fn task(&self, size: usize) -> Task<'_> {
-        Task {
-            file: &self.sizes[size],
-            bodies: self.settings.bodies[size],
-            longest: self.longest,
-            variants: self.settings.variants(size),
-            runs: self.settings.runs,
-        }
+    fn report(&self, measured: Vec<Measured>, _: Option<f64>) -> Result<ScalingReport, StudyError> {
+        Ok(ScalingReport::of(self, measured))
     }
 }

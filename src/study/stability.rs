@@ -2,10 +2,11 @@
 //! solution or by theory, and is measured and judged in both precisions.
 //!
 //! ```no_run
-//! use carom::study::{Journal, stability};
+//! use carom::study::stability::{Extent, Stability, cases};
+//! use carom::study::{Journal, Study};
 //!
-//! let cases: Vec<&stability::Case> = stability::cases().iter().collect();
-//! let report = stability::study(&cases, stability::Extent::Quick, &Journal::unwritten(), &())?;
+//! let study = Stability::new(cases().iter().collect(), Extent::Quick);
+//! let report = study.measure(&Journal::unwritten(), &())?;
 //! println!("{report}");
 //! # Ok::<(), carom::study::StudyError>(())
 //! ```
@@ -33,7 +34,7 @@ mod wedge;
 
 use serde::Serialize;
 
-use super::{Journal, Machine, Order, Point, StudyError, Watch, chart};
+use super::{Journal, Machine, Order, Point, Study, StudyError, Watch, chart};
 
 pub use case::{Case, Curve, Extent, Findings};
 pub use figure::{Figure, Verdict};
@@ -66,39 +67,51 @@ pub fn case(name: &str) -> Option<&'static Case> {
     cases().iter().find(|case| case.name == name)
 }
 
-/// All that the results depend on: what their journal is opened with.
-#[must_use]
-pub fn heading(extent: Extent) -> impl Serialize {
-    ("stability", extent)
+/// The study: some cases, measured several points at once.
+pub struct Stability {
+    cases: Vec<&'static Case>,
+    extent: Extent,
 }
 
-/// Measures some cases, several points at once.
-///
-/// The journal is to be opened for [`heading`] of the extent; a case that is studied with
-/// others has the same points as by itself.
-///
-/// # Errors
-/// If a scene has a mistake, or the journal cannot be written. An engine that
-/// gives up is a figure that deviates.
-pub fn study(
-    cases: &[&Case],
-    extent: Extent,
-    journal: &Journal,
-    watch: &dyn Watch,
-) -> Result<StabilityReport, StudyError> {
-    let mut points = Vec::new();
-    let mut counts = Vec::new();
-    for case in cases {
-        let trials = (case.trials)(extent);
-        counts.push(trials.len());
-        points.extend(trials.into_iter().map(|mut point| {
-            point.key = format!("{}: {}", case.name, point.key);
-            point
-        }));
+impl Stability {
+    /// Of some cases. One that is studied with others has the same points as by itself.
+    #[must_use]
+    pub fn new(cases: Vec<&'static Case>, extent: Extent) -> Self {
+        Self { cases, extent }
     }
-    let mut findings = Point::all(&points, journal, Order::AtOnce, watch)?.into_iter();
-    let sections = cases.iter().zip(counts).map(|(case, count)| {
-        Section::new(case, (case.combine)(findings.by_ref().take(count).collect()))
-    });
-    Ok(StabilityReport { machine: Machine::here(), extent, cases: sections.collect() })
+}
+
+impl Study for Stability {
+    const NAME: &'static str = "stability";
+    const ORDER: Order = Order::AtOnce;
+    type Outcome = Findings;
+    type Report = StabilityReport;
+
+    fn settings(&self) -> impl Serialize {
+        self.extent
+    }
+
+    fn points(&self, _: &Journal, _: &dyn Watch) -> Result<Vec<Point<'_, Findings>>, StudyError> {
+        let of = |case: &&Case| {
+            let trials = (case.trials)(self.extent).into_iter();
+            let name = case.name;
+            trials.map(move |trial| trial.of(name))
+        };
+        Ok(self.cases.iter().flat_map(of).collect())
+    }
+
+    /// An engine that gives up is a figure that deviates.
+    fn report(
+        &self,
+        findings: Vec<Findings>,
+        _: Option<f64>,
+    ) -> Result<StabilityReport, StudyError> {
+        let mut findings = findings.into_iter();
+        let sections = self.cases.iter().map(|case| {
+            let trials = (case.trials)(self.extent).len();
+            Section::new(case, (case.combine)(findings.by_ref().take(trials).collect()))
+        });
+        let cases = sections.collect();
+        Ok(StabilityReport { machine: Machine::here(), extent: self.extent, cases })
+    }
 }

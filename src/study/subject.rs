@@ -7,7 +7,6 @@ use std::path::Path;
 use serde::Serialize;
 use xxhash_rust::xxh3::Xxh3Default;
 
-use super::{Folder, StudyError};
 use crate::scene::SceneFile;
 
 /// A scene, and what options have put in the place of its values.
@@ -44,14 +43,6 @@ impl Subject {
             set: file.values().to_vec(),
             states: file.state_files().iter().map(|path| hash(path)).collect(),
         }
-    }
-
-    /// Puts the scene file into the folder, as `scene.toml`.
-    ///
-    /// # Errors
-    /// If it cannot be written.
-    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
-        folder.write("scene.toml", self.text.as_bytes())
     }
 }
 

@@ -1,4 +1,4 @@
-//! Table: numbers in columns, and numbers as people say them.
+//! Table: numbers in columns, and numbers and sentences as people read them.
 
 use core::fmt;
 
@@ -120,6 +120,31 @@ pub fn seconds(value: f64) -> String {
         v if v < 0.9995 => format!("{} ms", three_digits(v * 1e3)),
         v => format!("{} s", three_digits(v)),
     }
+}
+
+/// A text in lines of at most `width` letters.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// `10ᵏ` as it is written.
+pub fn power_of_ten(k: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |digit: char| match digit.to_digit(10) {
+        Some(digit) => DIGITS[digit as usize],
+        None => '⁻',
+    };
+    format!("10{}", k.to_string().chars().map(raised).collect::<String>())
 }
 
 #[cfg(test)]

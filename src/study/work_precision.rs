@@ -21,16 +21,16 @@ mod reference;
 mod report;
 mod sweep;
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
-use super::others::Others;
-use super::{Journal, Order as Turn, Point, StudyError, Watch};
+use super::{Journal, Order as Turn, Point, Study, StudyError, Subject, Watch};
 use crate::scene::{Precision, SceneFile};
 use crate::vec3::Vec3;
 use conclusions::Motion;
 use measure::measure;
 use reference::{Horizon, Reference, length_scale};
-use report::Measured;
 
 pub use conclusions::{Found, Judged, Order, Theory};
 pub use measure::{Moment, Outcome};
@@ -60,6 +60,7 @@ pub struct WorkPrecision {
     sweep: Sweep,
     scale: Scale,
     motion: Motion,
+    quantity: Quantity,
 }
 
 impl WorkPrecision {
@@ -90,7 +91,7 @@ impl WorkPrecision {
         };
         let has_field = scene.gravity.to_array() != Vec3::<f64>::ZERO.to_array();
         let motion = Motion { has_field, has_collisions: horizon.collisions > 0 };
-        let study = Self { file: file.clone(), sweep, scale, motion };
+        let study = Self { file: file.clone(), sweep, scale, motion, quantity: asked.quantity };
         let numbers = study.times().len() as f64 * scene.bodies.len() as f64 * 19.0;
         if numbers > MOST_NUMBERS {
             return Err(StudyError::Asked(format!(
@@ -120,18 +121,27 @@ impl WorkPrecision {
         all.dedup();
         all
     }
+}
 
-    /// Measures all methods, but for those that the journal has.
-    ///
-    /// # Errors
-    /// If an engine cannot run the scene to its end, if lanes or threads change a
-    /// bit, or if the journal cannot be written.
-    pub fn measure(
+impl Study for WorkPrecision {
+    const NAME: &'static str = "error";
+    const ORDER: Turn = Turn::OneByOne;
+    type Outcome = Outcome;
+    type Report = WorkPrecisionReport;
+
+    fn subject(&self) -> Option<Subject> {
+        Some(Subject::of(&self.file))
+    }
+
+    fn settings(&self) -> impl Serialize {
+        &self.sweep
+    }
+
+    fn points(
         &self,
         journal: &Journal,
-        quantity: Quantity,
         watch: &dyn Watch,
-    ) -> Result<WorkPrecisionReport, StudyError> {
+    ) -> Result<Vec<Point<'_, Outcome>>, StudyError> {
         let Self { file, sweep, .. } = self;
         let end = sweep.times.last().copied().unwrap_or(0.0);
         let keys: Vec<String> = sweep.methods.iter().map(Method::key).collect();
@@ -140,26 +150,28 @@ impl WorkPrecision {
         let mut reference = None;
         if is_ahead {
             watch.says("the reference, in double-double");
-            reference = Some(Reference::new(file, &self.times())?);
+            reference = Some(Arc::new(Reference::new(file, &self.times())?));
             watch.says("how long each method takes");
             let runs = (sweep.executions.len() * (sweep.runs + 1) + 1) as f64;
             for (seconds, method) in seconds.iter_mut().zip(&sweep.methods) {
                 *seconds = runs * measure::probe(file, method, end)?;
             }
         }
-        let reference = &reference;
-        let point = |((method, key), seconds): ((&Method, &String), &f64)| {
-            let method = *method;
-            Point::new(key.clone(), *seconds, move || match reference {
+        let point = |((method, key), seconds): ((&Method, String), f64)| {
+            let (method, reference) = (*method, reference.clone());
+            Point::new(key, seconds, move || match &reference {
                 Some(reference) => measure(file, &method, sweep, reference),
                 None => Err(StudyError::Asked(format!("{method} has no reference"))),
             })
         };
-        let points: Vec<_> = sweep.methods.iter().zip(&keys).zip(&seconds).map(point).collect();
-        let others = Others::watch();
-        let outcomes = Point::all(&points, journal, Turn::OneByOne, watch)?;
-        let others = others.processors().filter(|_| is_ahead);
-        let measured = Measured { outcomes, others };
-        Ok(WorkPrecisionReport::new(file, sweep, &self.scale, self.motion, measured, quantity))
+        Ok(sweep.methods.iter().zip(keys).zip(seconds).map(point).collect())
+    }
+
+    fn report(
+        &self,
+        outcomes: Vec<Outcome>,
+        others: Option<f64>,
+    ) -> Result<WorkPrecisionReport, StudyError> {
+        Ok(WorkPrecisionReport::new(self, outcomes, others))
     }
 }

@@ -3,13 +3,12 @@
 use carom::bodies::Bodies;
 use carom::contact::Surface;
 use carom::engine::{Batch, ChangeError, Compiled, Execution, Fault, Lanes, World};
-use carom::real::Real;
-use carom::scene::{EngineKind, Impact, Scene, Sphere, Spheres, Summation};
+use carom::scene::{Buildable, EngineKind, Impact, Scene, Sphere, Spheres, Summation};
 use carom::surroundings::Cuboid;
 
 const ALONE: Execution = Execution::new().lanes(Lanes::Scalar).threads(1);
 
-fn scene<T: Real>(surface: Surface, seed: u64) -> Scene<T> {
+fn scene<T: Buildable>(surface: Surface, seed: u64) -> Scene<T> {
     let t3 = |vector: [f64; 3]| vector.map(T::from_f64);
     let spheres = Spheres::random(6).radius(0.5).temperature(1.0).spin_temperature(1.0);
     Scene::<T>::builder()

@@ -6,7 +6,7 @@ use carom::engine::{Batch, Collisions, Compiled, Event, Execution, Lanes, World}
 use carom::motion::Integrator;
 use carom::real::Real;
 use carom::scene::{
-    EngineKind, Impact, OrientationUpdate, Scene, SceneError, Spheres, Spread, Summation,
+    Buildable, EngineKind, Impact, OrientationUpdate, Scene, SceneError, Spheres, Spread, Summation,
 };
 use carom::surroundings::{Capsule, Cuboid, FixedSphere, Plane};
 use rand::rngs::SmallRng;
@@ -52,7 +52,7 @@ impl Shape {
     }
 
     /// Scene `k` of a batch, whose step and gravity may be its own.
-    fn scene<T: Real>(&self, k: u64, is_varied: bool) -> Result<Scene<T>, SceneError> {
+    fn scene<T: Buildable>(&self, k: u64, is_varied: bool) -> Result<Scene<T>, SceneError> {
         let t3 = |vector: [f64; 3]| vector.map(T::from_f64);
         let own = if is_varied { k as f64 } else { 0.0 };
         let gravity = if self.has_gravity { -1.0 - 0.125 * own } else { 0.0 };

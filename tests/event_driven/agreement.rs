@@ -5,7 +5,7 @@ use carom::contact::Surface;
 use carom::engine::{Compiled, Event, EventDriven, Execution, Lanes, Order};
 use carom::observe::state_hash;
 use carom::real::Real;
-use carom::scene::{Encounters, Scene, Sphere, Spheres};
+use carom::scene::{Buildable, Encounters, Scene, Sphere, Spheres};
 use carom::space::PeriodicBox;
 use carom::surroundings::{Cuboid, Feature, FixedSphere, Plane, Shape};
 use carom::vec3::Vec3;
@@ -89,7 +89,7 @@ fn rounded<T: Real>(shape: Shape<f64>) -> Shape<T> {
 }
 
 /// A random scene.
-fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
+fn scene<T: Buildable>(kind: Kind, seed: u64) -> Scene<T> {
     if kind == Kind::Symmetric {
         return symmetric(seed);
     }
@@ -167,7 +167,7 @@ fn scene<T: Real>(kind: Kind, seed: u64) -> Scene<T> {
 
 /// Balls on some sites of a lattice with velocities of a few values: many
 /// contacts come at the same time.
-fn symmetric<T: Real>(seed: u64) -> Scene<T> {
+fn symmetric<T: Buildable>(seed: u64) -> Scene<T> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut builder = builder::<T>().name(format!("Symmetric {seed}"));
     let (spacing, sites) = (if seed.is_multiple_of(3) { 1.0 } else { 1.5 }, 4);

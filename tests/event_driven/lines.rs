@@ -2,7 +2,7 @@
 
 use carom::engine::Compiled;
 use carom::real::Real;
-use carom::scene::{Scene, Sphere};
+use carom::scene::{Buildable, Scene, Sphere};
 use carom::surroundings::Plane;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -103,7 +103,7 @@ impl Rods {
         }
     }
 
-    fn scene<T: Real>(&self) -> Scene<T> {
+    fn scene<T: Buildable>(&self) -> Scene<T> {
         let mut builder = builder::<T>()
             .surroundings(Plane::new(t3([0.0; 3]), t3([1.0, 0.0, 0.0])))
             .surroundings(Plane::new(t3([self.length, 0.0, 0.0]), t3([-1.0, 0.0, 0.0])));

@@ -4,7 +4,7 @@
 use carom::contact::Surface;
 use carom::engine::{Compiled, Event, Partner};
 use carom::real::Real;
-use carom::scene::{Scene, Sphere};
+use carom::scene::{Buildable, Scene, Sphere};
 use carom::surroundings::Cuboid;
 use serde::Deserialize;
 
@@ -38,7 +38,7 @@ fn known(name: &str) -> Known {
     scenes.remove(name).unwrap()
 }
 
-fn scene<T: Real>(known: &Known) -> Scene<T> {
+fn scene<T: Buildable>(known: &Known) -> Scene<T> {
     let surface = if known.rough { Surface::Rough } else { Surface::Smooth };
     let mut builder = builder::<T>()
         .surface(surface)

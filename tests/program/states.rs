@@ -5,8 +5,7 @@ use std::fs;
 
 use carom::bodies::Bodies;
 use carom::observe::state_hash;
-use carom::real::Real;
-use carom::scene::SceneFile;
+use carom::scene::{Buildable, SceneFile};
 
 use crate::{BOX, Folder};
 
@@ -32,7 +31,7 @@ inside = true
 /// Two spheres by their places.
 const PLACES: &str = "x,y,z\n1,1,1\n3,3,3\n";
 
-fn bodies<T: Real>(folder: &Folder, scene: &str) -> Bodies<T> {
+fn bodies<T: Buildable>(folder: &Folder, scene: &str) -> Bodies<T> {
     let path = folder.path("again.toml");
     fs::write(&path, scene).unwrap();
     SceneFile::load(&path).unwrap().build::<T>().unwrap().bodies
@@ -40,7 +39,7 @@ fn bodies<T: Real>(folder: &Folder, scene: &str) -> Bodies<T> {
 
 #[test]
 fn a_state_of_its_own_is_read_back_bit_by_bit() {
-    fn check<T: Real>() {
+    fn check<T: Buildable>() {
         for engine in ["event-driven", "stepped"] {
             let folder = Folder::with(BOX);
             let options = format!("--precision {} --engine {engine}", T::NAME);

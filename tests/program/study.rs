@@ -17,7 +17,7 @@ fn an_interrupted_study_keeps_its_points() {
     use std::time::{Duration, Instant};
 
     let folder = Folder::with(FLUID);
-    let arguments = "study error scene.toml --runs 900 --output kept";
+    let arguments = "study error scene.toml --runs 300 --output kept";
     let mut study = folder
         .program(arguments.split_whitespace())
         .stdout(Stdio::piped())

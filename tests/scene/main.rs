@@ -5,7 +5,7 @@ mod dilated;
 mod made;
 mod mistakes;
 
-use carom::scene::{SceneError, SceneFile};
+use carom::scene::{Buildable, SceneError, SceneFile};
 
 /// A scene with a stepped engine, and more text behind it.
 fn file(text: &str) -> Result<SceneFile, SceneError> {
@@ -19,7 +19,7 @@ fn message(text: &str) -> String {
 }
 
 #[track_caller]
-fn message_in<T: carom::real::Real>(text: &str) -> String {
+fn message_in<T: Buildable>(text: &str) -> String {
     let error = file(text).and_then(|file| file.build::<T>()).map(|_| ()).unwrap_err();
     let message = error.to_string();
     assert!(!message.contains('\n'), "{message}");

@@ -3,7 +3,7 @@
 
 use carom::scene::SceneFile;
 use carom::study::precision::{PrecisionReport, PrecisionStudy};
-use carom::study::{Folder, Journal, StudyError};
+use carom::study::{Folder, Journal, Report, Study, StudyError};
 
 const FLUID: &str = r#"
 engine = "event-driven"
@@ -102,7 +102,8 @@ fn resumed_is_the_same() {
     let temporary = tempfile::tempdir().unwrap();
     let path = temporary.path().join("points.jsonl");
     let study = PrecisionStudy::new(&file(NOBODY_MEETS), 3, 16).unwrap();
-    let journal = || Journal::open(&path, &study.heading()).unwrap();
+    let folder = Folder::open(temporary.path()).unwrap();
+    let journal = || study.journal(&folder).unwrap();
     let first = study.measure(&journal(), &()).unwrap();
     // As if it had been interrupted after two points, within the third.
     let text = std::fs::read_to_string(&path).unwrap();

@@ -7,7 +7,7 @@ use carom::engine::Lanes;
 use carom::scene::EngineKind;
 use carom::scene::{Precision, SceneFile};
 use carom::study::scaling::{Scaling, ScalingReport, Settings};
-use carom::study::{Folder, Journal, StudyError, Watch};
+use carom::study::{Folder, Journal, Report, Study, StudyError, Watch};
 
 /// What has been done.
 #[derive(Default)]
@@ -89,7 +89,7 @@ fn an_interrupted_study_goes_on() {
     let folder = Folder::open(temporary.path()).unwrap();
     let study = Scaling::new(&fluid(EngineKind::Stepped), &tiny()).unwrap();
     let seen = Seen::default();
-    let whole = study.measure(&folder.journal(&study).unwrap(), &seen).unwrap();
+    let whole = study.measure(&study.journal(&folder).unwrap(), &seen).unwrap();
     let points = ["f32 108 bodies", "f64 108 bodies", "f32 500 bodies", "f64 500 bodies"];
     assert_eq!(*seen.0.lock().unwrap(), points);
 
@@ -99,7 +99,7 @@ fn an_interrupted_study_goes_on() {
     let kept: Vec<&str> = text.lines().take(4).collect();
     fs::write(&path, kept.join("\n") + "\n").unwrap();
     let seen = Seen::default();
-    let resumed = study.measure(&folder.journal(&study).unwrap(), &seen).unwrap();
+    let resumed = study.measure(&study.journal(&folder).unwrap(), &seen).unwrap();
     assert_eq!(*seen.0.lock().unwrap(), points[3..]);
     assert_eq!(resumed.points[..3], whole.points[..3]);
 

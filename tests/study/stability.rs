@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use carom::scene::Precision;
 use carom::study::stability::{
-    Case, Extent, Figure, Section, StabilityReport, Verdict, cases, study,
+    Case, Extent, Figure, Section, Stability, StabilityReport, Verdict, cases,
 };
-use carom::study::{Folder, Journal, StudyError, Watch};
+use carom::study::{Folder, Journal, Report, Study, StudyError, Watch};
 
 fn named(names: &[&str]) -> Vec<&'static Case> {
     names.iter().map(|name| cases().iter().find(|case| case.name == *name).unwrap()).collect()
@@ -17,8 +17,8 @@ fn named(names: &[&str]) -> Vec<&'static Case> {
 /// Every law that is judged holds, in both precisions.
 #[test]
 fn laws_hold() {
-    let all: Vec<&Case> = cases().iter().collect();
-    let report = study(&all, Extent::Quick, &Journal::unwritten(), &()).unwrap();
+    let study = Stability::new(cases().iter().collect(), Extent::Quick);
+    let report = study.measure(&Journal::unwritten(), &()).unwrap();
     let failed: Vec<&Figure> =
         report.figures().filter(|figure| figure.verdict == Verdict::Deviates).collect();
     assert!(failed.is_empty(), "{failed:#?}\n{report}");
@@ -55,7 +55,8 @@ fn written(report: &StabilityReport) {
 /// the law that carom's step is judged by, in each precision.
 #[test]
 fn a_bare_rotation_deviates() {
-    let report = study(&named(&["rotation"]), Extent::Quick, &Journal::unwritten(), &()).unwrap();
+    let study = Stability::new(named(&["rotation"]), Extent::Quick);
+    let report = study.measure(&Journal::unwritten(), &()).unwrap();
     for (precision, epsilon) in
         [(Precision::F32, f64::from(f32::EPSILON)), (Precision::F64, f64::EPSILON)]
     {
@@ -109,11 +110,12 @@ impl Watch for Count {
 /// gives the same report.
 #[test]
 fn goes_on_from_its_journal() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("points.jsonl");
-    let cases = named(&["superball", "cradle"]);
+    let temporary = tempfile::tempdir().unwrap();
+    let path = temporary.path().join("points.jsonl");
+    let folder = Folder::open(temporary.path()).unwrap();
+    let study = Stability::new(named(&["superball", "cradle"]), Extent::Quick);
     let run = |watch: &Count| -> Result<StabilityReport, StudyError> {
-        study(&cases, Extent::Quick, &Journal::open(&path, &Extent::Quick)?, watch)
+        study.measure(&study.journal(&folder)?, watch)
     };
     let all = Count::default();
     let first = run(&all).unwrap();

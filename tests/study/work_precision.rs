@@ -8,7 +8,7 @@ use carom::scene::{Precision, SceneFile};
 use carom::study::work_precision::{
     Asked, Family, Found, Quantity, Theory, WorkPrecision, WorkPrecisionReport,
 };
-use carom::study::{Folder, Journal};
+use carom::study::{Folder, Journal, Report, Study};
 
 use super::scene;
 
@@ -76,7 +76,7 @@ fn quick() -> Asked {
 
 fn study(file: &SceneFile, asked: &Asked) -> WorkPrecisionReport {
     let study = WorkPrecision::new(file, asked).unwrap();
-    study.measure(&Journal::unwritten(), Quantity::Position, &()).unwrap()
+    study.measure(&Journal::unwritten(), &()).unwrap()
 }
 
 /// What was found of a quantity in `f64`, by the family's name.
@@ -170,9 +170,7 @@ fn past_predictability_there_is_no_figure() {
     assert!(report.limits.iter().any(|note| note.contains("every method has lost")));
     assert_eq!(report.time, 0.2);
     // Of the energy there is.
-    let journal = Journal::unwritten();
-    let study = WorkPrecision::new(&file, &asked).unwrap();
-    let report = study.measure(&journal, Quantity::Energy, &()).unwrap();
+    let report = study(&file, &Asked { quantity: Quantity::Energy, ..asked });
     assert_eq!(report.time, 20.0);
     assert!(report.front.iter().all(|best| best.error < 1e-5));
 }
@@ -184,18 +182,18 @@ fn goes_on_where_it_was() {
     let study = WorkPrecision::new(&file, &asked).unwrap();
     let temporary = tempfile::tempdir().unwrap();
     let folder = Folder::open(temporary.path()).unwrap();
-    let journal = folder.journal(study.sweep()).unwrap();
-    let first = study.measure(&journal, Quantity::Position, &()).unwrap();
+    let journal = study.journal(&folder).unwrap();
+    let first = study.measure(&journal, &()).unwrap();
     drop(journal);
 
     // Interrupted in the middle of a line.
     let path = temporary.path().join("points.jsonl");
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, &text[..text.len() / 2]).unwrap();
-    let journal = folder.journal(study.sweep()).unwrap();
+    let journal = study.journal(&folder).unwrap();
     let points = journal.len();
     assert!(points > 0 && points < study.sweep().methods.len());
-    let second = study.measure(&journal, Quantity::Position, &()).unwrap();
+    let second = study.measure(&journal, &()).unwrap();
     for (k, (first, second)) in first.outcomes.iter().zip(&second.outcomes).enumerate() {
         assert_eq!((&first.moments, &first.state_hash), (&second.moments, &second.state_hash));
         // What was there is not measured again.
@@ -241,7 +239,7 @@ radius = 0.5
     let report = study(&scene(far), &asked);
     assert!(report.outcomes.iter().all(|outcome| outcome.moments.len() == 8));
     let both = WorkPrecision::new(&scene(far), &quick()).unwrap();
-    let refused = both.measure(&Journal::unwritten(), Quantity::Position, &()).unwrap_err();
+    let refused = both.measure(&Journal::unwritten(), &()).unwrap_err();
     assert!(refused.to_string().contains("overlap"), "{refused}");
 }
 
@@ -253,8 +251,8 @@ fn steps_that_look_alike_are_two() {
     let study = WorkPrecision::new(&file, &asked).unwrap();
     let temporary = tempfile::tempdir().unwrap();
     let folder = Folder::open(temporary.path()).unwrap();
-    let journal = folder.journal(study.sweep()).unwrap();
-    study.measure(&journal, Quantity::Position, &()).unwrap();
+    let journal = study.journal(&folder).unwrap();
+    study.measure(&journal, &()).unwrap();
     drop(journal);
-    assert_eq!(folder.journal(study.sweep()).unwrap().len(), study.sweep().methods.len());
+    assert_eq!(study.journal(&folder).unwrap().len(), study.sweep().methods.len());
 }

@@ -4,15 +4,12 @@ use carom::engine::Lanes;
 use carom::motion::Integrator;
 use carom::scene::Precision;
 use carom::scene::{EngineKind, Impact};
-use carom::study::Subject;
 use carom::study::work_precision::{Asked, Quantity, WorkPrecision};
 use clap::Args;
 
-use super::watch::Teller;
 use super::{StudiedScene, StudyFolder};
 use crate::cli::arguments::{ENGINES, LANES, PRECISIONS, one_of, positive, threads};
 use crate::cli::failure::Failure;
-use crate::cli::print;
 
 /// What `carom study error` takes.
 #[derive(Args, Debug)]
@@ -101,13 +98,8 @@ impl ErrorArguments {
             lanes: self.lanes,
             threads: self.threads.into_iter().map(|threads| threads as usize).collect(),
             runs: self.runs,
+            quantity: self.of,
         };
-        let study = WorkPrecision::new(&file, &asked)?;
-        let name = format!("study-error-{}", file.name);
-        let (folder, journal) =
-            self.folder.open(&name, &("error", Subject::of(&file), study.sweep()))?;
-        let report = study.measure(&journal, self.of, &Teller::new(folder.path()))?;
-        report.write(&folder)?;
-        print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))
+        self.folder.conduct(&WorkPrecision::new(&file, &asked)?)
     }
 }

@@ -4,11 +4,9 @@ use carom::scene::EngineKind;
 use carom::study::precision::{MOST_RUNS, PrecisionStudy};
 use clap::Args;
 
-use super::watch::Teller;
 use super::{StudiedScene, StudyFolder};
 use crate::cli::arguments::{ENGINES, one_of};
 use crate::cli::failure::Failure;
-use crate::cli::print;
 
 /// What `carom study precision` takes.
 #[derive(Args, Debug)]
@@ -45,13 +43,6 @@ impl PrecisionArguments {
         if let Some(engine) = self.engine {
             file.engine = engine;
         }
-        let study = PrecisionStudy::new(&file, self.runs, self.samples)?;
-        let default = format!("study-precision-{}", file.name);
-        let (folder, journal) = self.folder.open(&default, &study.heading())?;
-        let teller = Teller::new(folder.path());
-        let report = study.measure(&journal, &teller)?;
-        drop(teller);
-        report.write(&folder)?;
-        print(&format!("{report}\nTables and pictures are in {}\n", folder.path().display()))
+        self.folder.conduct(&PrecisionStudy::new(&file, self.runs, self.samples)?)
     }
 }

@@ -6,10 +6,9 @@ use carom::scene::{MOST_BODIES, Precision};
 use carom::study::scaling::{Scaling, Settings};
 use clap::Args;
 
-use super::{StudiedScene, StudyFolder, watch::Teller};
+use super::{StudiedScene, StudyFolder};
 use crate::cli::arguments::{ENGINES, LANES, PRECISIONS, one_of, positive, threads};
 use crate::cli::failure::Failure;
-use crate::cli::print;
 
 /// What `carom study scaling` takes.
 #[derive(Args, Debug)]
@@ -60,13 +59,7 @@ impl ScalingArguments {
         let mut file = self.scene.file()?;
         file.engine = self.engine.unwrap_or(file.engine);
         file.dt = self.dt.or(file.dt);
-        let study = Scaling::new(&file, &self.settings())?;
-        let name = format!("study-scaling-{}", file.name);
-        let (folder, journal) = self.folder.open(&name, &study)?;
-        let report = study.measure(&journal, &Teller::new(folder.path()))?;
-        report.write(&folder)?;
-        print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))?;
-        Ok(report.verdict()?)
+        self.folder.conduct(&Scaling::new(&file, &self.settings())?)
     }
 
     fn settings(&self) -> Settings {

@@ -2,11 +2,11 @@
 
 use core::fmt::Write as _;
 
-use carom::study::stability::{self, Case, Extent, case, cases, heading};
+use carom::study::stability::{Case, Extent, Stability, case, cases};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use super::{StudyFolder, watch::Teller};
+use super::StudyFolder;
 use crate::cli::failure::Failure;
 use crate::cli::print;
 
@@ -36,15 +36,12 @@ impl StabilityArguments {
         if self.list {
             return print(&list());
         }
-        let chosen: Vec<&Case> = match self.cases.as_slice() {
+        let chosen: Vec<&'static Case> = match self.cases.as_slice() {
             [] => cases().iter().collect(),
             names => names.iter().filter_map(|name| case(name)).collect(),
         };
         let extent = if self.quick { Extent::Quick } else { Extent::Full };
-        let (folder, journal) = self.folder.open("study-stability", &heading(extent))?;
-        let report = stability::study(&chosen, extent, &journal, &Teller::new(folder.path()))?;
-        report.write(&folder)?;
-        print(&format!("{report}\nTables and pictures are in {}.\n", folder.path().display()))
+        self.folder.conduct(&Stability::new(chosen, extent))
     }
 }
 

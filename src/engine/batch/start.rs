@@ -10,6 +10,9 @@ use crate::real::Real;
 use crate::scene::{QuickCheck, Scene, SceneError};
 use crate::workers::Workers;
 
+/// What gives the scene of each number.
+pub type Make<'a, T> = dyn Fn(usize) -> Result<Scene<T>, SceneError> + Sync + 'a;
+
 /// As many scenes as a pack has lanes.
 struct Portion<T: Real> {
     pack: Option<Pack<T>>,
@@ -19,11 +22,11 @@ struct Portion<T: Real> {
 }
 
 /// A batch of the scenes that `make` gives, each for its number. `first` has their shape.
-pub(super) fn start<T: Compiled>(
+pub fn start<T: Compiled>(
     first: &Scene<T>,
     count: usize,
     execution: Execution,
-    make: impl Fn(usize) -> Result<Scene<T>, SceneError> + Sync,
+    make: &Make<'_, T>,
 ) -> Result<Batch<T>, BatchError> {
     if count == 0 {
         return Err(BatchError::Empty);

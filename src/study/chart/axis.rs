@@ -6,6 +6,8 @@ use plotters::coord::ranged1d::{NoDefaultFormatting, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
+use crate::study::table::power_of_ten;
+
 /// How far a scale goes, and how it is divided.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
@@ -183,15 +185,11 @@ fn short(value: f64) -> String {
 fn in_powers(value: f64) -> String {
     let text = format!("{value:.1e}");
     let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
-    let raised = |letter: char| match letter {
-        '-' => '⁻',
-        digit => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize % 16 % 10],
-    };
-    let power: String = power.chars().map(raised).collect();
+    let power = power_of_ten(power.parse().unwrap_or(0));
     match digits.trim_end_matches(".0") {
-        "1" => format!("10{power}"),
-        "-1" => format!("-10{power}"),
-        digits => format!("{digits}·10{power}"),
+        "1" => power,
+        "-1" => format!("-{power}"),
+        digits => format!("{digits}·{power}"),
     }
 }
 

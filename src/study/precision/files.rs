@@ -1,27 +1,32 @@
 //! Files: what the study leaves in its folder.
 
-use super::report::PrecisionReport;
+use super::report::{PrecisionReport, SeriesRow};
 use super::{PRECISIONS, RunPoint};
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
-use crate::study::{Folder, StudyError};
+use crate::study::{Report, Subject};
 
-impl PrecisionReport {
-    /// Writes tables, pictures, the report and the scene into the folder.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
-        folder.write_csv("precision.csv", &self.series)?;
-        folder.write_json("precision.json", self)?;
-        folder.write("report.txt", self.to_string().as_bytes())?;
-        self.subject.write(folder)?;
-        Picture { charts: vec![self.divergence_chart()] }.write(folder, "divergence")?;
-        if !self.drifts.is_empty() {
-            Picture { charts: self.drift_charts() }.write(folder, "drift")?;
-        }
-        Ok(())
+impl Report for PrecisionReport {
+    const NAME: &'static str = "precision";
+    type Row<'a> = SeriesRow;
+
+    fn subject(&self) -> Option<&Subject> {
+        Some(&self.subject)
     }
 
+    fn rows(&self) -> Vec<SeriesRow> {
+        self.series.clone()
+    }
+
+    fn pictures(&self) -> Vec<(&'static str, Picture)> {
+        let mut pictures = vec![("divergence", self.divergence_chart().into())];
+        if !self.drifts.is_empty() {
+            pictures.push(("drift", Picture { charts: self.drift_charts() }));
+        }
+        pictures
+    }
+}
+
+impl PrecisionReport {
     fn divergence_chart(&self) -> Chart {
         let has_collisions = self.end.collisions_per_body > 0.0;
         let at =
@@ -29,37 +34,20 @@ impl PrecisionReport {
         let mut series = Vec::new();
         for (k, divergence) in self.divergences.iter().enumerate() {
             let points = self.series.iter().filter_map(|row| {
-                let RunPoint { time, collisions_per_body } =
-                    RunPoint { time: row.time, collisions_per_body: row.collisions_per_body };
+                let SeriesRow { time, collisions_per_body, .. } = *row;
                 let distance = [row.f32_distance, row.f64_distance][k]?;
                 Some((at(RunPoint { time, collisions_per_body }), distance))
             });
-            series.push(Series {
-                name: PRECISIONS[k].to_owned(),
-                color: Some(k),
-                mark: Mark::Line,
-                points: points.collect(),
-                ..Series::default()
-            });
+            series.push(Series::new(PRECISIONS[k], points).color(k).mark(Mark::Line));
             if let Some(growth) = divergence.growth.filter(|growth| growth.power.is_none()) {
                 let law = |c: f64| (c, (growth.intercept + growth.rate.value * c).exp());
-                series.push(Series {
-                    name: format!("{}: e^({:.2} c)", PRECISIONS[k], growth.rate.value),
-                    color: Some(k),
-                    mark: Mark::Dashes,
-                    points: growth.range.map(law).to_vec(),
-                    ..Series::default()
-                });
+                let name = format!("{}: e^({:.2} c)", PRECISIONS[k], growth.rate.value);
+                let line = Series::new(name, growth.range.map(law));
+                series.push(line.color(k).mark(Mark::Dashes));
             }
         }
-        let ends = [0.0, at(self.end)];
-        series.push(Series {
-            name: "lost".to_owned(),
-            color: None,
-            mark: Mark::Dashes,
-            points: ends.map(|x| (x, self.threshold.distance)).to_vec(),
-            ..Series::default()
-        });
+        let ends = [0.0, at(self.end)].map(|x| (x, self.threshold.distance));
+        series.push(Series::new("lost", ends).mark(Mark::Dashes));
         let x = if has_collisions { "collisions per body" } else { "time" };
         Chart {
             title: format!("{}: distance from double-double", self.subject.name),
@@ -73,12 +61,9 @@ impl PrecisionReport {
     fn drift_charts(&self) -> Vec<Chart> {
         let of = |precision: &&str| {
             let drifts = self.drifts.iter().filter(|drift| drift.precision == *precision);
-            let series = drifts.enumerate().map(|(color, drift)| Series {
-                name: format!("{}, {}", drift.invariant, drift.law),
-                color: Some(color),
-                mark: Mark::LineAndMarkers,
-                points: drift.points.iter().copied().filter(|point| point.1.is_finite()).collect(),
-                ..Series::default()
+            let series = drifts.enumerate().map(|(color, drift)| {
+                let points = drift.points.iter().copied().filter(|point| point.1.is_finite());
+                Series::new(format!("{}, {}", drift.invariant, drift.law), points).color(color)
             });
             Chart {
                 title: format!("{}: drift in {precision}", self.subject.name),

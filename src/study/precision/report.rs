@@ -13,7 +13,7 @@ use super::{PRECISIONS, verdict};
 use crate::real::Real;
 use crate::scene::EngineKind;
 use crate::study::fit::Estimate;
-use crate::study::table::{Table, counted, rounded};
+use crate::study::table::{Table, counted, rounded, wrapped};
 use crate::study::{Machine, Subject};
 
 /// Columns of the terminal.
@@ -180,7 +180,7 @@ impl fmt::Display for PrecisionReport {
         self.show_averages(f)?;
         writeln!(f)?;
         for sentence in &self.verdict {
-            write_wrapped(f, sentence)?;
+            writeln!(f, "{}", wrapped(sentence, WIDTH - 2).join("\n  "))?;
         }
         Ok(())
     }
@@ -305,27 +305,6 @@ pub(super) fn short(value: f64) -> String {
 /// A figure that may be extrapolated far.
 pub(super) fn far(value: f64) -> String {
     if value < 1e6 { short(value) } else { format!("{value:.0e}") }
-}
-
-/// Writes a sentence in lines of the terminal's width.
-fn write_wrapped(f: &mut fmt::Formatter<'_>, sentence: &str) -> fmt::Result {
-    let mut left = WIDTH;
-    for (number, word) in sentence.split(' ').enumerate() {
-        let len = word.chars().count() + 1;
-        match (number, left.checked_sub(len)) {
-            (0, _) => left = WIDTH.saturating_sub(len - 1),
-            (_, Some(rest)) => {
-                f.write_str(" ")?;
-                left = rest;
-            }
-            (_, None) => {
-                f.write_str("\n  ")?;
-                left = WIDTH.saturating_sub(len + 1);
-            }
-        }
-        f.write_str(word)?;
-    }
-    writeln!(f)
 }
 
 fn shown(value: Option<f64>) -> String {

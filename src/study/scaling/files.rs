@@ -5,11 +5,12 @@ use serde::Serialize;
 use super::{Measurement, ScalingReport};
 use crate::scene::EngineKind;
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
-use crate::study::{Folder, StudyError};
+use crate::study::table::counted;
+use crate::study::{Report, StudyError, Subject};
 
 /// A row of `scaling.csv`.
-#[derive(Serialize)]
-struct Line<'a> {
+#[derive(Debug, Serialize)]
+pub struct Line<'a> {
     precision: &'a str,
     bodies: u64,
     threads: usize,
@@ -25,28 +26,38 @@ struct Line<'a> {
     state_hash: &'a str,
 }
 
-impl ScalingReport {
-    /// Writes all of it into a folder: `report.txt`, `scene.toml`,
-    /// `scaling.csv` (nanoseconds per body and step, or per collision),
-    /// `scaling.json`, and the pictures `time`, `memory` and, where lanes were
-    /// compared, `lanes`, each as SVG and PNG.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
-        folder.write("report.txt", self.to_string().as_bytes())?;
-        self.subject.write(folder)?;
-        let lines: Vec<Line<'_>> = self.points.iter().flatten().map(|row| self.line(row)).collect();
-        folder.write_csv("scaling.csv", &lines)?;
-        folder.write_json("scaling.json", self)?;
-        Picture { charts: vec![self.time_chart()] }.write(folder, "time")?;
-        Picture { charts: vec![self.memory_chart()] }.write(folder, "memory")?;
-        if self.settings.lanes.len() > 1 {
-            Picture { charts: vec![self.lanes_chart()] }.write(folder, "lanes")?;
-        }
-        Ok(())
+impl Report for ScalingReport {
+    const NAME: &'static str = "scaling";
+    type Row<'a> = Line<'a>;
+
+    fn subject(&self) -> Option<&Subject> {
+        Some(&self.subject)
     }
 
+    fn rows(&self) -> Vec<Line<'_>> {
+        self.points.iter().flatten().map(|row| self.line(row)).collect()
+    }
+
+    /// The pictures `time`, `memory` and, where lanes were compared, `lanes`.
+    fn pictures(&self) -> Vec<(&'static str, Picture)> {
+        let mut pictures =
+            vec![("time", self.time_chart().into()), ("memory", self.memory_chart().into())];
+        if self.settings.lanes.len() > 1 {
+            pictures.push(("lanes", self.lanes_chart().into()));
+        }
+        pictures
+    }
+
+    /// All variants have to end in the same bits.
+    fn verdict(&self) -> Result<(), StudyError> {
+        match &self.differing[..] {
+            [] => Ok(()),
+            differing => Err(StudyError::DifferentBits(differing.join("; "))),
+        }
+    }
+}
+
+impl ScalingReport {
     fn line<'a>(&self, row: &'a Measurement) -> Line<'a> {
         let time = self.nanoseconds(row);
         Line {
@@ -80,15 +91,9 @@ impl ScalingReport {
             for &threads in &self.settings.threads {
                 let name = precision.name();
                 let rows = self.sweep(name, threads);
-                let plural = if threads == 1 { "" } else { "s" };
-                series.push(Series {
-                    name: format!("{name}, {threads} thread{plural}"),
-                    color: Some(series.len()),
-                    points: rows
-                        .map(|row| (row.bodies as f64, self.nanoseconds(row).median))
-                        .collect(),
-                    ..Series::default()
-                });
+                let points = rows.map(|row| (row.bodies as f64, self.nanoseconds(row).median));
+                let label = format!("{name}, {}", counted(threads as u64, "thread"));
+                series.push(Series::new(label, points).color(series.len()));
             }
         }
         Chart {
@@ -109,16 +114,10 @@ impl ScalingReport {
                 (row.bodies as f64, bytes as f64 / row.bodies as f64)
             };
             let peaks = rows.iter().filter_map(|row| Some(per_body(row, row.peak_resident?)));
-            let of = |what: &str, mark, points| Series {
-                name: format!("{name}, {what}"),
-                color: Some(color),
-                mark,
-                points,
-                ..Series::default()
-            };
-            let held = rows.iter().map(|row| per_body(row, row.bytes)).collect();
-            series.push(of("held by the engine", Mark::LineAndMarkers, held));
-            series.push(of("peak of the process", Mark::Dashes, peaks.collect()));
+            let held = rows.iter().map(|row| per_body(row, row.bytes));
+            let held = Series::new(format!("{name}, held by the engine"), held);
+            let peaks = Series::new(format!("{name}, peak of the process"), peaks);
+            series.extend([held.color(color), peaks.color(color).mark(Mark::Dashes)]);
         }
         series.retain(|series| !series.points.is_empty());
         Chart {
@@ -156,20 +155,11 @@ impl ScalingReport {
             widths.sort_by(|a, b| a.0.total_cmp(&b.0));
             ticks = widths.iter().map(|(width, _)| *width).collect();
             if let (Some(auto), Some(first), Some(last)) = (auto, widths.first(), widths.last()) {
-                series.push(Series {
-                    name: format!("{name}, auto"),
-                    color: Some(color),
-                    mark: Mark::Dashes,
-                    points: vec![(first.0, auto), (last.0, auto)],
-                    ..Series::default()
-                });
+                let ends = [(first.0, auto), (last.0, auto)];
+                let line = Series::new(format!("{name}, auto"), ends).mark(Mark::Dashes);
+                series.push(line.color(color));
             }
-            series.push(Series {
-                name: name.to_owned(),
-                color: Some(color),
-                points: widths,
-                ..Series::default()
-            });
+            series.push(Series::new(name, widths).color(color));
         }
         Chart {
             title: format!("{}: lanes", self.subject.name),

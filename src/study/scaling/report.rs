@@ -7,7 +7,7 @@ use super::{Scaling, Settings};
 use crate::scene::EngineKind;
 use crate::study::clock::Timing;
 use crate::study::fit::{Estimate, power};
-use crate::study::{Machine, StudyError, Subject};
+use crate::study::{Machine, Subject};
 
 /// What a scaling study found.
 #[derive(Clone, Debug, Serialize)]
@@ -72,17 +72,6 @@ impl ScalingReport {
         let speed_ups = points.iter().flat_map(|rows| speed_ups(&settings, rows)).collect();
         let differing = points.iter().flat_map(|rows| differing(rows)).collect();
         Self { subject, machine, engine, settings, points, powers, speed_ups, differing }
-    }
-
-    /// Whether all variants ended in the same bits.
-    ///
-    /// # Errors
-    /// If some did not.
-    pub fn verdict(&self) -> Result<(), StudyError> {
-        match &self.differing[..] {
-            [] => Ok(()),
-            differing => Err(StudyError::DifferentBits(differing.join("; "))),
-        }
     }
 
     /// All variants that threads are compared by.

@@ -90,6 +90,12 @@ impl From<Vec<Figure>> for Findings {
     }
 }
 
+impl From<Vec<Curve>> for Findings {
+    fn from(curves: Vec<Curve>) -> Self {
+        Self { figures: Vec::new(), curves }
+    }
+}
+
 /// A piece of a case, with a result of its own.
 pub(super) type Trial = Point<'static, Findings>;
 

@@ -99,8 +99,7 @@ fn run<T: Studied>(fluid: Fluid, seed: u64, collisions: u64) -> Trial {
             let change = in_epsilon::<T>(energy_change(&world.bodies(), &start));
             changes.push((n as f64, change));
         }
-        let curve = Curve::new(T::PRECISION, fluid.name(), changes);
-        Ok(Findings { figures: Vec::new(), curves: vec![curve] })
+        Ok(vec![Curve::new(T::PRECISION, fluid.name(), changes)])
     })
 }
 
@@ -176,13 +175,8 @@ fn picture(curves: &[Curve]) -> Picture {
         // The steeper law leaves the chart soon.
         let end = last.min(first * 200.0_f64.powf(1.0 / power));
         let at = |n: f64| (n, start * (n / first).powf(power));
-        Series {
-            name: name.to_owned(),
-            color: None,
-            mark: if power < 1.0 { Mark::Dashes } else { Mark::Line },
-            points: vec![at(first), at(end)],
-            ..Series::default()
-        }
+        let mark = if power < 1.0 { Mark::Dashes } else { Mark::Line };
+        Series::new(name, [at(first), at(end)]).mark(mark)
     };
     let chart = |diameter: &str| {
         let mut series = vec![law("√n", 0.5), law("n", 1.0)];
@@ -195,13 +189,9 @@ fn picture(curves: &[Curve]) -> Picture {
                 (Precision::F64, true) => 0,
             };
             let surface = if is_rough { Surface::Rough } else { Surface::Smooth };
-            series.push(Series {
-                name: format!("{}, {surface}", curve.precision),
-                color: Some(color),
-                mark: Mark::Line,
-                points: curve.points.clone(),
-                ..Series::default()
-            });
+            let name = format!("{}, {surface}", curve.precision);
+            let line = Series::new(name, curve.points.iter().copied());
+            series.push(line.color(color).mark(Mark::Line));
         }
         Chart {
             title: diameter.to_owned(),

@@ -3,10 +3,10 @@
 use super::case::{
     Case, Extent, Findings, Random, Studied, Trial, greatest, in_epsilon, t3, trial,
 };
-use super::figure::power_of_ten;
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
 use crate::scene::{Scene, Spheres};
+use crate::study::table::power_of_ten;
 use crate::surroundings::Cuboid;
 use crate::vec3::Vec3;
 
@@ -82,10 +82,7 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
         }
         let far = 10.0_f64.powi(power);
         let kept = gas::run(distant_gas::<T>(far)?, collisions, far + 8.0)?;
-        Ok(vec![
-            Figure::at_most(T::PRECISION, name("energy"), kept.energy, gas::WALK, "√n ε"),
-            Figure::at_most(T::PRECISION, name("overlap"), kept.overlap, 4.0, "δ"),
-        ])
+        Ok(vec![kept.energy::<T>(name), kept.overlap::<T>(name)])
     })
 }
 

@@ -168,16 +168,6 @@ fn with_unit(value: f64, unit: &str) -> String {
     if unit.is_empty() { number(value) } else { format!("{} {unit}", number(value)) }
 }
 
-/// `10ᵏ` as it is written.
-pub(super) fn power_of_ten(k: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raised = |digit: char| match digit.to_digit(10) {
-        Some(digit) => DIGITS[digit as usize],
-        None => '⁻',
-    };
-    format!("10{}", k.to_string().chars().map(raised).collect::<String>())
-}
-
 /// A number in few letters, a count with all of its digits.
 pub(super) fn number(value: f64) -> String {
     let size = value.abs();

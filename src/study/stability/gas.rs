@@ -1,7 +1,7 @@
 //! What a gas keeps over many collisions.
 
-use super::StudyError;
 use super::case::{Studied, greatest, in_epsilon};
+use super::{Figure, StudyError};
 use crate::bodies::Bodies;
 use crate::engine::EventDriven;
 use crate::observe::{Energy, Momentum, total_mass};
@@ -20,6 +20,23 @@ pub(super) struct Kept {
     pub momentum: f64,
     /// The deepest overlap that was seen, in [roundings](rounding) of a place.
     pub overlap: f64,
+}
+
+impl Kept {
+    /// The energy, judged by what it may walk by; `name` says of what a figure is.
+    pub fn energy<T: Studied>(&self, name: impl Fn(&str) -> String) -> Figure {
+        Figure::at_most(T::PRECISION, name("energy"), self.energy, WALK, "√n ε")
+    }
+
+    /// The same of the momentum.
+    pub fn momentum<T: Studied>(&self, name: impl Fn(&str) -> String) -> Figure {
+        Figure::at_most(T::PRECISION, name("momentum"), self.momentum, WALK, "√n ε")
+    }
+
+    /// The overlap, judged.
+    pub fn overlap<T: Studied>(&self, name: impl Fn(&str) -> String) -> Figure {
+        Figure::at_most(T::PRECISION, name("overlap"), self.overlap, 4.0, "δ")
+    }
 }
 
 /// What a place in a box that reaches to `extent` is uncertain by: its own

@@ -3,11 +3,11 @@
 use super::case::{
     Case, Extent, Findings, Random, Studied, Trial, greatest, in_epsilon, t3, trial,
 };
-use super::figure::power_of_ten;
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
 use crate::scene::{Scene, Spheres};
 use crate::space::PeriodicBox;
+use crate::study::table::power_of_ten;
 
 pub(super) const CASE: Case = Case {
     name: "mass-ratio",
@@ -78,16 +78,9 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
         for surface in [Surface::Smooth, Surface::Rough] {
             let kept = gas::run(mixture::<T>(power, surface)?, collisions, 9.0)?;
             let name = |what: &str| format!("{what} of a {surface} gas, {ten}");
-            let energy =
-                Figure::at_most(T::PRECISION, name("energy"), kept.energy, gas::WALK, "√n ε");
-            figures.push(energy.beyond_precision_if(gas::rounds_alike::<T>(10.0_f64.powi(-power))));
-            figures.push(Figure::at_most(
-                T::PRECISION,
-                name("momentum"),
-                kept.momentum,
-                gas::WALK,
-                "√n ε",
-            ));
+            let rounds_alike = gas::rounds_alike::<T>(10.0_f64.powi(-power));
+            figures.push(kept.energy::<T>(name).beyond_precision_if(rounds_alike));
+            figures.push(kept.momentum::<T>(name));
         }
         Ok(figures)
     })

@@ -3,10 +3,10 @@
 use super::case::{
     Case, Extent, Findings, Random, Studied, Trial, greatest, in_epsilon, t3, trial,
 };
-use super::figure::power_of_ten;
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
 use crate::scene::{Scene, Sphere, Spheres};
+use crate::study::table::power_of_ten;
 use crate::surroundings::Cuboid;
 
 pub(super) const CASE: Case = Case {
@@ -61,14 +61,7 @@ fn many<T: Studied>(power: i32, collisions: u64) -> Trial {
         for surface in [Surface::Smooth, Surface::Rough] {
             let kept = gas::run(dust::<T>(power, surface)?, collisions, SIDE)?;
             let name = |what: &str| format!("{what}, {surface}, {ten}");
-            figures.push(Figure::at_most(
-                T::PRECISION,
-                name("energy"),
-                kept.energy,
-                gas::WALK,
-                "√n ε",
-            ));
-            figures.push(Figure::at_most(T::PRECISION, name("overlap"), kept.overlap, 4.0, "δ"));
+            figures.extend([kept.energy::<T>(name), kept.overlap::<T>(name)]);
         }
         Ok(figures)
     })

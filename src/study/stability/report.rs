@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::case::{Curve, Findings};
 use super::{Case, Extent, Figure, Verdict};
 use crate::scene::Precision;
-use crate::study::{Folder, Machine, StudyError};
+use crate::study::chart::Picture;
+use crate::study::table::wrapped;
+use crate::study::{Machine, Report};
 
 /// What came of one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,36 +66,32 @@ impl StabilityReport {
     pub fn count(&self, verdict: Verdict) -> usize {
         self.figures().filter(|figure| figure.verdict == verdict).count()
     }
+}
 
-    /// Writes `report.txt`, `stability.csv`, `stability.json` and the pictures of
-    /// the cases into a folder.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
-        folder.write("report.txt", self.to_string().as_bytes())?;
-        folder.write_json("stability.json", self)?;
-        let rows: Vec<FigureRecord<'_>> = self
-            .cases
-            .iter()
-            .flat_map(|section| {
-                section.figures.iter().map(|figure| FigureRecord::of(&section.case, figure))
-            })
-            .collect();
-        folder.write_csv("stability.csv", &rows)?;
-        for section in &self.cases {
-            let picture = super::case(&section.case).and_then(|case| case.picture);
-            if let Some((name, picture)) = picture {
-                picture(&section.curves).write(folder, name)?;
-            }
-        }
-        Ok(())
+impl Report for StabilityReport {
+    const NAME: &'static str = "stability";
+    type Row<'a> = FigureRecord<'a>;
+
+    fn rows(&self) -> Vec<FigureRecord<'_>> {
+        let sections = self.cases.iter().flat_map(|section| {
+            section.figures.iter().map(|figure| FigureRecord::of(&section.case, figure))
+        });
+        sections.collect()
+    }
+
+    /// Those of the cases.
+    fn pictures(&self) -> Vec<(&'static str, Picture)> {
+        let of = |section: &Section| {
+            let (name, picture) = super::case(&section.case)?.picture?;
+            Some((name, picture(&section.curves)))
+        };
+        self.cases.iter().filter_map(of).collect()
     }
 }
 
 /// A row of the table of comma-separated values.
-#[derive(Serialize)]
-struct FigureRecord<'a> {
+#[derive(Debug, Serialize)]
+pub struct FigureRecord<'a> {
     case: &'a str,
     precision: Precision,
     quantity: &'a str,
@@ -177,19 +175,4 @@ fn rows(figures: &[Figure]) -> Vec<(&str, &str, [Option<&Figure>; 2])> {
         }
     }
     rows
-}
-
-/// A text in lines of at most `width` letters.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
 }

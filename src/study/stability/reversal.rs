@@ -3,7 +3,7 @@
 use super::case::{
     Case, Curve, Extent, Findings, Studied, Trial, at_points, in_epsilon, t3, trial,
 };
-use super::chart::{Axis, Chart, Mark, Picture, Scale, Series};
+use super::chart::{Axis, Chart, Picture, Scale, Series};
 use super::{Figure, StudyError, gas};
 use crate::contact::Surface;
 use crate::engine::EventDriven;
@@ -46,7 +46,7 @@ fn trials(extent: Extent) -> Vec<Trial> {
 fn chaotic<T: Studied>(surface: Surface, bodies: u64, seed: u64) -> Trial {
     let most = if T::PRECISION == Precision::F32 { 32 } else { 64 };
     let name = format!("{surface} gas");
-    trial::<T, Findings>(format!("{name}, {seed}"), 2e-3 * bodies as f64, move || {
+    trial::<T, _>(format!("{name}, {seed}"), 2e-3 * bodies as f64, move || {
         let spin = if surface == Surface::Rough { 1.0 } else { 0.0 };
         let spheres = Spheres::fcc(bodies)
             .number_density(0.5)
@@ -64,8 +64,7 @@ fn chaotic<T: Studied>(surface: Surface, bodies: u64, seed: u64) -> Trial {
         for c in (1..=10).chain((12..=most).step_by(2)) {
             points.push((c as f64, way_off(&molten, c * bodies / 2)?));
         }
-        let curve = Curve::new(T::PRECISION, name.clone(), points);
-        Ok(Findings { figures: Vec::new(), curves: vec![curve] })
+        Ok(vec![Curve::new(T::PRECISION, name.clone(), points)])
     })
 }
 
@@ -195,12 +194,9 @@ fn rate(curve: &Curve, c: f64, is_wanted: impl Fn(f64) -> bool) -> f64 {
 fn picture(curves: &[Curve]) -> Picture {
     let chart = |title: &str, x: Axis, is_shown: &dyn Fn(&Curve) -> bool| {
         let shown = curves.iter().filter(|curve| is_shown(curve));
-        let series = shown.enumerate().map(|(k, curve)| Series {
-            name: format!("{}, {}", curve.name, curve.precision),
-            color: Some(k),
-            mark: Mark::LineAndMarkers,
-            points: curve.points.clone(),
-            ..Series::default()
+        let series = shown.enumerate().map(|(color, curve)| {
+            let name = format!("{}, {}", curve.name, curve.precision);
+            Series::new(name, curve.points.iter().copied()).color(color)
         });
         Chart {
             title: title.to_owned(),

@@ -65,7 +65,7 @@ fn trials(extent: Extent) -> Vec<Trial> {
 
 fn walk<T: Studied>(method: Method, steps: i32) -> Trial {
     let seconds = 1e-7 * f64::from(steps);
-    trial::<T, Findings>(method.name(), seconds, move || {
+    trial::<T, _>(method.name(), seconds, move || {
         let runs: Vec<_> = (0..SPINS).map(|k| start::<T>(k)).collect();
         let dt = T::ratio(1, 100);
         let curves = match method {
@@ -98,13 +98,13 @@ fn walk<T: Studied>(method: Method, steps: i32) -> Trial {
                 })
             }
         };
-        Ok(Findings { figures: Vec::new(), curves })
+        Ok(curves)
     })
 }
 
 fn polar<T: Studied>(k: usize, steps: i32) -> Trial {
     let name = Method::Polar.name();
-    trial::<T, Findings>(format!("{name}, spin {k}"), 3.2e-6 * f64::from(steps), move || {
+    trial::<T, _>(format!("{name}, spin {k}"), 3.2e-6 * f64::from(steps), move || {
         let run = start::<T>(k);
         let rotation = turned(Mat3::IDENTITY, run.1, T::ratio(1, 100));
         let mut now = run.0;
@@ -112,7 +112,7 @@ fn polar<T: Studied>(k: usize, steps: i32) -> Trial {
             now = nearest_orthonormal(rotation * now);
             now
         });
-        Ok(Findings { figures: Vec::new(), curves })
+        Ok(curves)
     })
 }
 
@@ -271,14 +271,10 @@ fn picture(curves: &[Curve]) -> Picture {
         let of_kind = curves.iter().filter(|curve| curve.name.starts_with(what));
         let series = of_kind.map(|curve| {
             let method = curve.name.trim_start_matches(what).trim_start_matches(", ");
-            let color = Method::ALL.iter().position(|one| one.name() == method);
-            Series {
-                name: format!("{method}, {}", curve.precision),
-                color,
-                mark: if curve.precision == Precision::F32 { Mark::Line } else { Mark::Dashes },
-                points: curve.points.clone(),
-                ..Series::default()
-            }
+            let mark = if curve.precision == Precision::F32 { Mark::Line } else { Mark::Dashes };
+            let name = format!("{method}, {}", curve.precision);
+            let line = Series::new(name, curve.points.iter().copied()).mark(mark);
+            Series { color: Method::ALL.iter().position(|one| one.name() == method), ..line }
         });
         Chart {
             title: label.to_owned(),

@@ -3,12 +3,12 @@
 use super::case::{
     Case, Extent, Findings, Random, Studied, Trial, greatest, in_epsilon, t3, trial,
 };
-use super::figure::power_of_ten;
 use super::{Figure, StudyError, pair};
 use crate::bodies::Bodies;
 use crate::contact::Surface;
 use crate::engine::EventDriven;
 use crate::scene::{Scene, Spheres};
+use crate::study::table::power_of_ten;
 use crate::surroundings::Cuboid;
 
 pub(super) const CASE: Case = Case {

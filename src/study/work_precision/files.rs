@@ -10,11 +10,11 @@ use crate::motion::Integrator;
 use crate::scene::Precision;
 use crate::scene::{EngineKind, Impact};
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series, Shape};
-use crate::study::{Folder, StudyError};
+use crate::study::{Report, Subject};
 
 /// A row of the table of comma-separated values.
-#[derive(Serialize)]
-struct MethodRecord {
+#[derive(Debug, Serialize)]
+pub struct MethodRecord {
     engine: EngineKind,
     integrator: Option<Integrator>,
     impact: Option<Impact>,
@@ -42,17 +42,16 @@ struct MethodRecord {
     state_hash: String,
 }
 
-impl WorkPrecisionReport {
-    /// Writes tables, pictures, the scene and the machine into a folder.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
-    pub fn write(&self, folder: &Folder) -> Result<(), StudyError> {
-        self.subject.write(folder)?;
-        folder.write("report.txt", self.to_string().as_bytes())?;
-        folder.write_csv("error.csv", &self.rows())?;
-        folder.write_json("error.json", self)?;
-        self.picture().write(folder, "work-precision")
+impl Report for WorkPrecisionReport {
+    const NAME: &'static str = "error";
+    type Row<'a> = MethodRecord;
+
+    fn subject(&self) -> Option<&Subject> {
+        Some(&self.subject)
+    }
+
+    fn pictures(&self) -> Vec<(&'static str, Picture)> {
+        vec![("work-precision", self.diagram().into())]
     }
 
     fn rows(&self) -> Vec<MethodRecord> {
@@ -99,9 +98,11 @@ impl WorkPrecisionReport {
         });
         rows.collect()
     }
+}
 
+impl WorkPrecisionReport {
     /// The work–precision diagram.
-    fn picture(&self) -> Picture {
+    fn diagram(&self) -> Chart {
         let results = self.results(self.judged, self.quantity);
         let size = size(self.quantity, self.scale.length, self.scale.speed);
         let point = |result: &Judged| (result.seconds, result.error / size);
@@ -135,31 +136,22 @@ impl WorkPrecisionReport {
             }
         }));
         // The legend.
-        series.extend(ways.iter().map(|way| Series {
-            name: way.way(),
-            color: color(way),
-            mark: Mark::Line,
-            ..Series::default()
+        series.extend(
+            ways.iter()
+                .zip(0..)
+                .map(|(way, color)| Series::new(way.way(), []).color(color).mark(Mark::Line)),
+        );
+        series.extend(precisions.into_iter().map(|precision| {
+            let series = Series::new(precision.name(), []).mark(Mark::Markers);
+            Series { shape: shape(precision), ..series }
         }));
-        series.extend(precisions.into_iter().map(|precision| Series {
-            name: precision.to_string(),
-            mark: Mark::Markers,
-            shape: shape(precision),
-            ..Series::default()
-        }));
-        series.push(Series {
-            name: "no other is faster and better".to_owned(),
-            mark: Mark::Rings,
-            points: self.front.iter().map(point).collect(),
-            ..Series::default()
-        });
-        Picture {
-            charts: vec![Chart {
-                title: format!("{}, up to time {:.4}", self.subject.name, self.time),
-                x: Axis::new("wall time / s", Scale::Logarithmic),
-                y: Axis::new(self.quantity.axis(), Scale::Logarithmic),
-                series,
-            }],
+        let front = self.front.iter().map(point);
+        series.push(Series::new("no other is faster and better", front).mark(Mark::Rings));
+        Chart {
+            title: format!("{}, up to time {:.4}", self.subject.name, self.time),
+            x: Axis::new("wall time / s", Scale::Logarithmic),
+            y: Axis::new(self.quantity.axis(), Scale::Logarithmic),
+            series,
         }
     }
 
@@ -168,12 +160,7 @@ impl WorkPrecisionReport {
     fn guides(&self, points: &[(f64, f64)]) -> Vec<Series> {
         let mut guides = Vec::new();
         let mut guide = |name: &str, ends: [(f64, f64); 2]| {
-            guides.push(Series {
-                name: name.to_owned(),
-                mark: Mark::Guide,
-                points: ends.to_vec(),
-                ..Series::default()
-            });
+            guides.push(Series::new(name, ends).mark(Mark::Guide));
         };
         let positive = points.iter().filter(|(_, error)| *error > 0.0);
         let Some(start) = positive.clone().copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))

@@ -5,8 +5,7 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::Integrator;
-use crate::real::Real;
-use crate::scene::{EngineKind, Impact};
+use crate::scene::{Buildable, EngineKind, Impact};
 use crate::scene::{Precision, Scene, SceneError, SceneFile};
 
 /// How the stepped engine goes.
@@ -56,7 +55,7 @@ impl Method {
 
     /// A scene that is moved in this way up to a time. `T` has to be the
     /// method's own precision, or the reference's.
-    pub(super) fn scene<T: Real>(
+    pub(super) fn scene<T: Buildable>(
         &self,
         file: &SceneFile,
         end: f64,

@@ -10,8 +10,7 @@ use super::method::Family;
 use super::quantity::Quantity;
 use super::reference::is_lost;
 use super::sweep::Sweep;
-use super::{Method, Scale};
-use crate::scene::SceneFile;
+use super::{Method, Scale, WorkPrecision};
 use crate::study::{Machine, Subject};
 
 /// What was measured of a scene's methods.
@@ -48,25 +47,12 @@ pub struct WorkPrecisionReport {
     pub(super) judged: usize,
 }
 
-/// All that was measured.
-pub(super) struct Measured {
-    pub outcomes: Vec<Outcome>,
-    /// As [`WorkPrecisionReport::others`].
-    pub others: Option<f64>,
-}
-
 /// Of a processor, so much is always busy with something.
 const BUSY: f64 = 0.2;
 
 impl WorkPrecisionReport {
-    pub(super) fn new(
-        file: &SceneFile,
-        sweep: &Sweep,
-        scale: &Scale,
-        motion: Motion,
-        Measured { outcomes, others }: Measured,
-        quantity: Quantity,
-    ) -> Self {
+    pub(super) fn new(study: &WorkPrecision, outcomes: Vec<Outcome>, others: Option<f64>) -> Self {
+        let WorkPrecision { ref file, ref sweep, ref scale, motion, quantity } = *study;
         let mut report = Self {
             machine: Machine::here(),
             subject: Subject::of(file),

@@ -5,6 +5,7 @@ use std::thread;
 use serde::{Deserialize, Serialize};
 
 use super::method::{Method, Stepping};
+use super::quantity::Quantity;
 use super::reference::{Horizon, length_scale};
 use crate::engine::{Execution, Lanes, Plan};
 use crate::motion::Integrator;
@@ -36,6 +37,8 @@ pub struct Asked {
     pub threads: Vec<usize>,
     /// Timed runs of each method.
     pub runs: Option<usize>,
+    /// By what an error is judged; what is measured does not depend on it.
+    pub quantity: Quantity,
 }
 
 /// What is compared.

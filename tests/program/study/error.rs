@@ -49,8 +49,12 @@ fn its_folder_has_all() {
 fn it_goes_on_or_begins_anew() {
     let folder = Folder::with(BOX);
     let first = folder.says(QUICK).well();
-    // All is there: the same times are printed again.
-    assert_eq!(folder.says(QUICK).well(), first);
+    // All is there: the same times are printed again. How busy the machine was is not.
+    let is_kept = |line: &&str| !line.is_empty() && !line.starts_with("The machine was busy");
+    let again = folder.says(QUICK).well();
+    let [first, again] =
+        [&first, &again].map(|said| said.lines().filter(is_kept).collect::<Vec<_>>());
+    assert_eq!(again, first);
     let journal = folder.path("study-error-scene/points.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
     fs::write(&journal, &text[..text.len() * 2 / 3]).unwrap();

@@ -12,7 +12,7 @@ fn writes_all_files_and_goes_on() {
     for text in ["growth λ", "first collision out of order", "compressibility", "Trajectories: "] {
         assert!(said.contains(text), "{text} is missing: {said}");
     }
-    assert!(said.ends_with("Tables and pictures are in out\n"), "{said}");
+    assert!(said.ends_with("Tables and pictures are in out.\n"), "{said}");
     let names = [
         "divergence.png",
         "divergence.svg",
