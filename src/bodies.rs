@@ -416,6 +416,22 @@ impl<T: Real> Bodies<T> {
         at(&self.spin, index)
     }
 
+    /// `m v` of body `index`, mass × length per time.
+    pub(crate) fn momentum_of(&self, index: usize) -> Vec3<f64> {
+        self.velocity_of(index).cast::<f64>() * self.mass.of(index).to_f64()
+    }
+
+    /// `½ m v²`, `½ I w²` and `−m g·c` of body `index`, mass × length² per time².
+    pub(crate) fn energy_of(&self, index: usize, gravity: Vec3<f64>) -> [f64; 3] {
+        let mass = self.mass.of(index).to_f64();
+        let inertia = self.inertia.of(index).to_f64();
+        [
+            0.5 * mass * self.velocity_of(index).cast::<f64>().length_squared(),
+            0.5 * inertia * self.spin_of(index).cast::<f64>().length_squared(),
+            -mass * gravity.dot(self.position_of(index).cast()),
+        ]
+    }
+
     /// Orientation of body `index`: body axes to world axes.
     #[must_use]
     pub fn orientation_of(&self, index: usize) -> Mat3<T> {

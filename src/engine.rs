@@ -6,8 +6,10 @@ mod change;
 mod compiled;
 mod event;
 mod event_driven;
+mod flow;
 mod frame;
 mod handles;
+mod idle;
 mod interface;
 mod later;
 mod parts;
@@ -29,6 +31,7 @@ pub use change::{Change, ChangeError};
 pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
+pub use flow::{Exchange, Exchanged};
 pub use handles::BodyHandle;
 pub use parts::PartTotals;
 pub use plan::{Plan, Turning};
@@ -326,6 +329,14 @@ pub enum EngineError {
     TooFast {
         /// Simulated time.
         time: f64,
+    },
+    /// Spheres cannot come or go as the scene has it.
+    #[error("at time {time:?} spheres cannot come or go: {reason}")]
+    Exchange {
+        /// Simulated time.
+        time: f64,
+        /// Why not.
+        reason: String,
     },
     /// A snapshot of another scene.
     #[error(

@@ -34,6 +34,7 @@ mod builtin;
 mod check;
 mod check_bodies;
 mod checked;
+mod coming;
 mod compiled;
 mod description;
 #[cfg(feature = "files")]
@@ -46,6 +47,7 @@ mod filling;
 #[cfg(feature = "files")]
 mod fixed;
 mod generate;
+mod inlet;
 #[cfg(feature = "files")]
 mod lines;
 mod obstacles;
@@ -63,6 +65,8 @@ mod reading;
 mod settings;
 #[cfg(feature = "files")]
 mod source;
+#[cfg(feature = "files")]
+mod sources;
 mod spheres;
 #[cfg(feature = "files")]
 mod state_file;
@@ -71,10 +75,12 @@ pub use builder::SceneBuilder;
 #[cfg(feature = "files")]
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
 pub use checked::Scene;
+pub(crate) use coming::Room;
 pub use compiled::Buildable;
 pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;
+pub use inlet::Inlet;
 #[cfg(feature = "files")]
 pub use outputs::AskedAnalysis;
 pub(crate) use quick::QuickCheck;

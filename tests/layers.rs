@@ -82,9 +82,10 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
 }
 
 /// The files of `scene/`, each of which imports only those before it.
-const SCENE: [&str; 28] = [
+const SCENE: [&str; 31] = [
     "settings",
     "spheres",
+    "inlet",
     "random",
     "error",
     "lines",
@@ -99,6 +100,7 @@ const SCENE: [&str; 28] = [
     "generate",
     "check_bodies",
     "checked",
+    "coming",
     "quick",
     "builder",
     "builtin",
@@ -107,6 +109,7 @@ const SCENE: [&str; 28] = [
     "reading",
     "state_file",
     "fixed",
+    "sources",
     "file",
     "outputs",
     "source",

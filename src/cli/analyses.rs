@@ -44,6 +44,11 @@ impl AskedAnalysis {
         (duration, equilibration): (f64, f64),
     ) -> Result<Vec<Self>, Failure> {
         let asked = file.analyses()?;
+        if !asked.is_empty() && file.has_flow() {
+            let wanted = "analyses follow the same spheres from the start, and here some come or go; \
+                          leave it out, and record frames";
+            return Err(file.mistake("analyse", "there", wanted).into());
+        }
         let bodies = if asked.is_empty() { None } else { Some(scene.bodies.cast::<f64>()) };
         let space = scene.periodic.map(PeriodicBox::cast);
         let images = vec![[0; 3]; if space.is_some() { scene.bodies.len() } else { 0 }];

@@ -23,6 +23,7 @@ use super::output_file::{Destination, OutputFile};
 use super::print;
 use super::run::totals_at_start;
 use super::scene_argument::scene_file;
+use super::study::refuse_flow;
 use super::study::watch::Teller;
 use super::variation::{blamed, refuse_both, seeds, varied};
 use draw::Varied;
@@ -54,6 +55,7 @@ struct Finished {
 /// Runs all scenes and writes their rows.
 pub fn batch(arguments: &BatchArguments) -> Result<(), Failure> {
     let base = scene_file(&arguments.scene)?;
+    refuse_flow(&base, "a batch")?;
     let varied = Varied::parse(&arguments.vary)?;
     refuse_both(&arguments.scene, &varied.keys())?;
     refuse_unfit(&varied)?;

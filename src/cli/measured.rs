@@ -29,7 +29,9 @@ pub struct Reading {
 impl Reading {
     fn of<T: Real>(world: &World<T>) -> Self {
         let collisions = world.collisions();
-        let path = world.mean_free_path().map_or(0.0, |mean| mean * collisions.ends() as f64);
+        // Where spheres come and go, the engine knows the flights since the last exchange only.
+        let mean = world.mean_free_path().filter(|_| !world.has_flow());
+        let path = mean.map_or(0.0, |mean| mean * collisions.ends() as f64);
         Self { time: world.time(), collisions, virial: world.virial(), path }
     }
 

@@ -46,6 +46,11 @@ impl Recording {
             let wanted = format!("its ending must be {}", FrameFormat::ENDINGS);
             return Err(asked.refused(WORDS, file, &wanted));
         };
+        if file.has_flow() && format == FrameFormat::NumPy {
+            let wanted = "spheres come and go, and an array has as many in each frame; give it an \
+                          ending of .dump, .lammpstrj, .xyz, .extxyz or .pvd";
+            return Err(asked.refused(WORDS, file, wanted));
+        }
         if is_kept && !format.goes_on() {
             let wanted = "frames of a run that is kept by --snapshot, or that goes on by --resume, \
                           go into a file that can be continued: .dump, .lammpstrj, .xyz or .extxyz";
@@ -123,7 +128,9 @@ impl Recorder {
             EngineKind::Stepped => world.steps(),
             _ => self.frames,
         };
-        let frame = Frame { time: world.time(), step, bodies, space, images };
+        let numbers = world.has_flow().then(|| world.numbers());
+        let numbers = numbers.as_deref();
+        let frame = Frame { time: world.time(), step, bodies, space, images, numbers };
         let written = self.writer.write(&frame);
         written.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
         self.frames += 1;

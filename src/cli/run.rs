@@ -176,7 +176,9 @@ fn run_in<T: Compiled>(
         warn(&doubt);
     }
     let (space, images) = journey.space();
-    let frame = Frame { time, step: world.steps(), bodies: &bodies, space, images };
+    let numbers = world.has_flow().then(|| world.numbers());
+    let numbers = numbers.as_deref();
+    let frame = Frame { time, step: world.steps(), bodies: &bodies, space, images, numbers };
     let state = outputs.state.map(|file| in_format(state_format, file, &frame)).transpose()?;
     // All are whole before one of them gets its name.
     for file in arrived.files.into_iter().chain(state) {

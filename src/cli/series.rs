@@ -33,7 +33,10 @@ impl AskedSeries {
         file: &SceneFile,
         duration: f64,
     ) -> Result<Option<Self>, Failure> {
-        let all = SeriesColumn::all(file.parts());
+        let mut all = SeriesColumn::all(file.parts());
+        if file.has_flow() {
+            all.extend(SeriesColumn::of_flow());
+        }
         let columns = match file.series_columns() {
             None => all,
             Some(names) => names

@@ -121,14 +121,28 @@ pub struct StudiedScene {
 impl StudiedScene {
     /// Reads the scene.
     pub fn file(&self) -> Result<SceneFile, Failure> {
-        scene_file(&SceneArguments {
+        let file = scene_file(&SceneArguments {
             scene: Some(self.scene.clone()),
             duration: self.duration,
             seed: self.seed,
             set: self.set.clone(),
             ..SceneArguments::default()
-        })
+        })?;
+        refuse_flow(&file, "a study")?;
+        Ok(file)
     }
+}
+
+/// Refuses a scene where spheres come or go.
+pub fn refuse_flow(file: &SceneFile, what: &str) -> Result<(), Failure> {
+    if !file.has_flow() {
+        return Ok(());
+    }
+    Err(Failure::Argument(format!(
+        "{}: spheres come or go in it, and {what} compares the same spheres at its ends; leave out \
+         [[inlet]] and `removes`, or use carom run or carom sweep",
+        file.name
+    )))
 }
 
 /// Where the results go.

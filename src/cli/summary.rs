@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use carom::contact::Surface;
-use carom::engine::{Collisions, PartTotals, World};
+use carom::engine::{Collisions, Exchange, PartTotals, World};
 use carom::motion::Integrator;
 use carom::observe::{
     AngularMomentum, Energy, Momentum, StateHash, Statistic, Temperature, Totals, collision_rate,
-    compressibility, integrator_drift, total_mass,
+    compressibility, energy_scale, integrator_drift, total_mass,
 };
 use carom::real::Real;
 use carom::scene::{EngineKind, Impact, Scene};
@@ -57,6 +57,9 @@ pub struct Setup {
     /// What they are called.
     #[serde(skip)]
     pub part_names: Vec<Option<String>>,
+    /// Which of them take spheres out.
+    #[serde(skip)]
+    pub removes: Vec<bool>,
     /// Whether space is periodic.
     pub periodic: bool,
     /// The box of a periodic space, length.
@@ -87,6 +90,7 @@ impl Setup {
             gravity: scene.gravity.cast().to_array(),
             fixed_parts: scene.surroundings.len(),
             part_names: scene.part_names.clone(),
+            removes: scene.removes.clone(),
             periodic: scene.periodic.is_some(),
             space: scene.periodic.map(|space| Corners {
                 lower: space.lower.to_array().map(shortest),
@@ -120,6 +124,8 @@ pub struct Work {
     pub measured: Reading,
     /// The same of each part that is counted apart.
     pub parts: Vec<PartTotals>,
+    /// What has come and gone, and how many bodies there are, where some may have.
+    pub flow: Option<(Exchange, usize)>,
     /// Means with their errors.
     pub statistics: BTreeMap<&'static str, Statistic>,
     /// Mean translational temperature of what was measured; `None` for fewer than two
@@ -146,16 +152,56 @@ pub struct PartSummary {
     pub collisions: u64,
     /// Its impulse on the bodies, mass × length per time.
     pub impulse: [f64; 3],
+    /// How many spheres it took out, of one that removes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub removed: Option<u64>,
     /// How often centres passed through it, of a sensor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passages: Option<Passages>,
 }
 
 impl PartSummary {
-    fn new(totals: &PartTotals, names: &[Option<String>]) -> Self {
+    fn new(totals: &PartTotals, setup: &Setup) -> Self {
         let PartTotals { part, collisions, impulse, passages, .. } = *totals;
-        let name = names.get(part as usize).cloned().flatten();
-        Self { index: part, name, collisions, impulse, passages }
+        let name = setup.part_names.get(part as usize).cloned().flatten();
+        let removes = setup.removes.get(part as usize) == Some(&true);
+        let removed = removes.then_some(totals.removed);
+        Self { index: part, name, collisions, impulse, removed, passages }
+    }
+}
+
+/// The spheres of a scene where some come or go.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SpheresSummary {
+    /// How many there were at the start.
+    pub start: usize,
+    /// How many came in.
+    pub came: u64,
+    /// How often one found no room and had to wait.
+    pub waits: u64,
+    /// How many were removed.
+    pub removed: u64,
+    /// How many there are at the end.
+    pub end: usize,
+    /// What those that came had, less what those that are gone had: mass, energy, momentum.
+    pub mass: f64,
+    pub energy: f64,
+    pub momentum: [f64; 3],
+}
+
+impl SpheresSummary {
+    fn new(setup: &Setup, (exchange, end): (Exchange, usize)) -> Self {
+        let Exchange { came, removed, waits, .. } = exchange;
+        Self {
+            start: setup.bodies,
+            came: came.spheres,
+            waits,
+            removed: removed.spheres,
+            end,
+            mass: came.mass - removed.mass,
+            energy: came.energy - removed.energy,
+            momentum: core::array::from_fn(|k| came.momentum[k] - removed.momentum[k]),
+        }
     }
 }
 
@@ -237,6 +283,9 @@ pub struct Summary {
     /// What each part did that is counted apart.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartSummary>,
+    /// How many spheres came and went, where any may.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spheres: Option<SpheresSummary>,
     /// Energy, mass × length² per time².
     pub energy: EnergySummary,
     /// Momentum, mass × length per time.
@@ -288,6 +337,7 @@ impl Work {
             equilibration: 0.0,
             measured: Reading::default(),
             parts: world.parts(),
+            flow: world.has_flow().then(|| (world.exchange(), world.bodies().len())),
             statistics: BTreeMap::new(),
             mean_temperature: None,
             found: Vec::new(),
@@ -314,16 +364,14 @@ impl Summary {
         let collisions = measured.collisions;
         let is_timed = engine_seconds > 0.0;
         let per_second = |count: f64| if is_timed { count / engine_seconds } else { 0.0 };
+        let spheres = work.flow.map(|flow| SpheresSummary::new(&setup, flow));
         let in_box = |figure: &dyn Fn() -> f64| setup.periodic.then(figure);
         Self {
             time,
             steps,
             collisions,
-            parts: work
-                .parts
-                .iter()
-                .map(|totals| PartSummary::new(totals, &setup.part_names))
-                .collect(),
+            parts: work.parts.iter().map(|totals| PartSummary::new(totals, &setup)).collect(),
+            spheres,
             energy: EnergySummary::new(&setup, &before.energy, &after.energy, work),
             momentum: MomentumSummary::new(&setup, before.momentum, after.momentum, work),
             angular_momentum: AngularMomentumSummary::new(
@@ -347,7 +395,8 @@ impl Summary {
             setup_seconds,
             collisions_per_second: per_second(work.collisions.since(work.earlier).total() as f64),
             body_steps_per_second: per_second(
-                setup.bodies as f64 * (steps - work.earlier_steps) as f64,
+                if spheres.is_some() { 0.0 } else { setup.bodies as f64 }
+                    * (steps - work.earlier_steps) as f64,
             ),
             setup,
         }
@@ -398,7 +447,7 @@ impl EnergySummary {
         // moves bodies too.
         let is_at_end = setup.impact == Some(Impact::EndOfStep);
         let has_law = !setup.periodic && (is_at_end || collisions == 0);
-        let law = setup.integrator.zip(setup.dt).filter(|_| has_law);
+        let law = setup.integrator.zip(setup.dt).filter(|_| has_law && work.flow.is_none());
         let drift = |(integrator, dt)| {
             let acceleration = Vec3::from(setup.gravity).length();
             integrator_drift(integrator, work.steps, dt, acceleration, setup.total_mass)
@@ -406,7 +455,17 @@ impl EnergySummary {
         Self {
             initial: before.total(),
             end: after.total(),
-            relative_change: after.relative_change(before, work.fall),
+            relative_change: match work.flow {
+                None => after.relative_change(before, work.fall),
+                Some((Exchange { came, removed, .. }, _)) => {
+                    // But for what came with spheres, and went with them.
+                    let change = (after.total() - before.total()) - (came.energy - removed.energy);
+                    let kinetic = [before.kinetic(), after.kinetic()];
+                    let potential = [before.potential, after.potential];
+                    let scale = energy_scale(kinetic, potential, work.fall);
+                    if change == 0.0 { 0.0 } else { change / (scale + removed.energy.abs()) }
+                }
+            },
             parts: parts(after),
             initial_parts: parts(before),
             integrator_drift: law.map(drift),
@@ -418,10 +477,21 @@ impl MomentumSummary {
     fn new(setup: &Setup, before: Momentum, after: Momentum, work: &Work) -> Self {
         let (initial, end) = (before.0.to_array(), after.0.to_array());
         let from_surroundings = work.impulse_from_surroundings;
+        let (mass_time, moved) = match work.flow {
+            None => (0.0, [0.0; 3]),
+            Some((Exchange { came, removed, mass_time: (sum, since), .. }, _)) => {
+                let mass = setup.total_mass + came.mass - removed.mass;
+                let moved = core::array::from_fn(|k| came.momentum[k] - removed.momentum[k]);
+                (sum + mass * (work.time - since), moved)
+            }
+        };
         // A component without gravity gets 0, not −0.
-        let from_gravity = setup.gravity.map(|g| setup.total_mass * g * work.time + 0.0);
+        let from_gravity = setup.gravity.map(|g| match work.flow {
+            None => setup.total_mass * g * work.time + 0.0,
+            Some(_) => mass_time * g + 0.0,
+        });
         let balance_error = core::array::from_fn(|k| {
-            ((end[k] - initial[k]) - from_surroundings[k]) - from_gravity[k]
+            (((end[k] - initial[k]) - from_surroundings[k]) - from_gravity[k]) - moved[k]
         });
         Self { initial, end, from_surroundings, from_gravity, balance_error }
     }

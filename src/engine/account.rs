@@ -93,6 +93,7 @@ impl PartSum {
             impulse,
             normal_impulse,
             area: None,
+            removed: 0,
             passages: None,
         }
     }
@@ -143,7 +144,7 @@ impl Account {
     ) {
         let sums = match counter {
             None => &mut self.impulse,
-            Some(Counter { index, is_named }) => {
+            Some(Counter { index, is_named, .. }) => {
                 let part = self.part(index);
                 part.collisions = part.collisions.wrapping_add(count);
                 if is_named {

@@ -2,11 +2,12 @@
 
 use core::ops::Range;
 
+use super::flow::Flow;
 use super::handles::Handles;
 use super::{BodyHandle, Compiled, EngineError, EventDriven, Execution, Stepped, World};
 use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Room, Scene, SceneError};
 use crate::space::{PeriodicBox, Space, SphereTree};
 use crate::vec3::Vec3;
 
@@ -45,6 +46,8 @@ pub(super) struct Base<T: Real> {
     scene: Scene<T>,
     pub execution: Execution,
     pub handles: Handles,
+    /// What comes and goes by the scene, if anything does.
+    pub flow: Option<Box<Flow>>,
 }
 
 impl<T: Real> Base<T> {
@@ -54,7 +57,8 @@ impl<T: Real> Base<T> {
 
     /// Of a world that had others before.
     pub fn later(scene: &Scene<T>, execution: Execution, handles: Handles) -> Self {
-        Self { scene: scene.without_bodies(), execution, handles }
+        let flow = Flow::of(scene).map(Box::new);
+        Self { scene: scene.without_bodies(), execution, handles, flow }
     }
 
     pub fn periodic(&self) -> Option<PeriodicBox<T>> {
@@ -66,6 +70,9 @@ impl<T: Real> Base<T> {
         size_of_val(self.scene.surroundings.as_slice()) + self.handles.bytes()
     }
 }
+
+/// What lets a change take effect, where it is not known that its precision is compiled.
+pub(super) type Apply<T> = fn(Change<'_, T>) -> Result<(), ChangeError>;
 
 /// The world that is changed.
 #[derive(Debug)]
@@ -261,6 +268,16 @@ impl<'a, T: Real> Change<'a, T> {
         self.with(body, |change| change.removed[body] = true)
     }
 
+    /// Whether a body is to be removed.
+    pub(super) fn is_removed(&self, body: usize) -> bool {
+        self.removed[body]
+    }
+
+    /// What is in the way of spheres that come, besides the bodies.
+    pub(super) fn room(&self) -> Room<T> {
+        Room::of(&self.target.base().scene)
+    }
+
     /// The name of a body of this change, which it has in the world from then on.
     #[must_use]
     pub fn handle_of(&self, body: usize) -> Option<BodyHandle> {
@@ -361,7 +378,7 @@ impl<T: Real> EventDriven<T> {
 }
 
 impl<T: Real> World<T> {
-    fn base(&self) -> &Base<T> {
+    pub(super) fn base(&self) -> &Base<T> {
         match self {
             Self::Stepped(world) => world.base(),
             Self::EventDriven(world) => world.base(),

@@ -1,6 +1,7 @@
 //! Compiled: the precisions that engines are there for.
 
 use super::frame::{Frame, Framed};
+use super::idle::Idle;
 use super::interface::{EventEngine, StepEngine};
 use super::{
     Batch, BatchError, Change, ChangeError, EngineError, Event, Execution, batch, event_driven,
@@ -9,7 +10,7 @@ use super::{
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
 use crate::real::Real;
-use crate::scene::{Buildable, Scene};
+use crate::scene::{Buildable, EngineKind, Scene};
 
 /// A precision that this crate has engines for.
 ///
@@ -93,7 +94,10 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn EventEngine<Self>>, EngineError> {
-                let driver = |scene| -> Result<Box<dyn EventEngine<Self>>, EngineError> {
+                let driver = |scene: Scene<Self>| -> Result<Box<dyn EventEngine<Self>>, EngineError> {
+                    if scene.bodies.is_empty() {
+                        return Ok(Box::new(Idle::new(&scene, EngineKind::EventDriven, execution)?));
+                    }
                     Ok(Box::new(event_driven::Driver::new(scene, execution)?))
                 };
                 let start = |scene| sensed::event_driven(scene, driver);
@@ -107,7 +111,10 @@ macro_rules! compile {
                 scene: Scene<Self>,
                 execution: Execution,
             ) -> Result<Box<dyn StepEngine<Self>>, EngineError> {
-                let driver = |scene| -> Result<Box<dyn StepEngine<Self>>, EngineError> {
+                let driver = |scene: Scene<Self>| -> Result<Box<dyn StepEngine<Self>>, EngineError> {
+                    if scene.bodies.is_empty() {
+                        return Ok(Box::new(Idle::new(&scene, EngineKind::Stepped, execution)?));
+                    }
                     Ok(Box::new(stepped::Driver::new(scene, execution)?))
                 };
                 let start = |scene| sensed::stepped(scene, driver);

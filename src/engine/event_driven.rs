@@ -41,7 +41,8 @@ mod undo;
 mod window;
 
 use super::account::Effort;
-use super::change::Base;
+use super::change::{Apply, Base};
+use super::flow::counted;
 use super::handles::Handles;
 use super::interface::{EventEngine, Stretch};
 use super::later::{Elapsed, Later};
@@ -77,6 +78,8 @@ pub(super) use snapshot::EventState;
 pub struct EventDriven<T: Real> {
     engine: Box<dyn EventEngine<T>>,
     base: Base<T>,
+    /// Lets a change of it take effect.
+    pub(super) apply: Apply<T>,
 }
 
 impl<T: Compiled> EventDriven<T> {
@@ -113,7 +116,7 @@ impl<T: Compiled> EventDriven<T> {
     /// None yet for a checked scene.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let base = Base::new(&scene, execution);
-        Ok(Self { engine: T::event_driven(scene, execution)?, base })
+        Ok(Self { engine: T::event_driven(scene, execution)?, base, apply: T::apply })
     }
 
     /// A scene that goes on from what has elapsed.
@@ -125,13 +128,15 @@ impl<T: Compiled> EventDriven<T> {
     ) -> Result<Self, EngineError> {
         let base = Base::later(&scene, execution, handles);
         let engine = Later::new(scene, elapsed, |scene| T::event_driven(scene, execution))?;
-        Ok(Self { engine: Box::new(engine), base })
+        Ok(Self { engine: Box::new(engine), base, apply: T::apply })
     }
 
     /// Goes on as the scene now is.
     pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
         let elapsed = Elapsed::of(&*self.engine, 0);
-        *self = Self::later(scene, self.base.execution, elapsed, handles)?;
+        let mut later = Self::later(scene, self.base.execution, elapsed, handles)?;
+        later.base.flow = self.base.flow.take();
+        *self = later;
         Ok(())
     }
 }
@@ -244,8 +249,7 @@ impl<T: Real> EventDriven<T> {
         on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
         self.after(time - self.time())?;
-        let stretch = Stretch { collisions: events, is_exact: true };
-        self.engine.advance_to(time, stretch, on_event)
+        self.go_to(time, Stretch { collisions: events, is_exact: true }, on_event)
     }
 
     /// [`advance_to`](EventDriven::advance_to), but comes back where it suits the engine
@@ -275,8 +279,41 @@ impl<T: Real> EventDriven<T> {
         on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
         self.after(time - self.time())?;
-        let stretch = Stretch { collisions: events, is_exact: false };
-        self.engine.advance_to(time, stretch, on_event)
+        self.go_to(time, Stretch { collisions: events, is_exact: false }, on_event)
+    }
+
+    /// Lets time pass, and spheres come and go on the way.
+    fn go_to(
+        &mut self,
+        time: f64,
+        stretch: Stretch,
+        mut on_event: Listener<'_, T>,
+    ) -> Result<bool, EngineError> {
+        let last = self.collisions().total().saturating_add(stretch.collisions);
+        loop {
+            let now = self.time();
+            let made = self.collisions().total();
+            let Self { engine, base: Base { flow, handles, .. }, .. } = self;
+            let Some(flow) = flow else {
+                return engine.advance_to(time, stretch, on_event);
+            };
+            if flow.is_due(now) {
+                self.exchange_due()?;
+                continue;
+            }
+            let end = time.min(flow.next());
+            let stretch = Stretch { collisions: last.saturating_sub(made), ..stretch };
+            let mut listener = |event: &Event<T>| {
+                let event = flow.hear(event, handles);
+                if let Some(on_event) = &mut on_event {
+                    on_event(&event);
+                }
+            };
+            let is_there = engine.advance_to(end, stretch, Some(&mut listener))?;
+            if !flow.is_due(engine.time()) {
+                return Ok(is_there);
+            }
+        }
     }
 
     /// What the scene needs.
@@ -380,7 +417,7 @@ impl<T: Real> EventDriven<T> {
     /// ```
     #[must_use]
     pub fn parts(&self) -> Vec<PartTotals> {
-        self.engine.parts()
+        counted(self.engine.parts(), self.base.flow.as_deref())
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the
@@ -457,17 +494,27 @@ impl<T: Real> EventDriven<T> {
         &self.base
     }
 
+    pub(super) fn base_mut(&mut self) -> &mut Base<T> {
+        &mut self.base
+    }
+
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
         let mut saved = self.engine.save();
         if let Some(later) = &mut saved.later {
             later.handles.clone_from(&self.base.handles);
         }
+        saved.flow = self.base.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
         saved
     }
 
     #[cfg(feature = "files")]
     pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        match (&mut self.base.flow, &saved.flow) {
+            (None, None) => {}
+            (Some(flow), Some(state)) => flow.restore(state)?,
+            _ => return Err(Misfit("spheres that come and go")),
+        }
         self.engine.restore(saved)
     }
 

@@ -11,6 +11,25 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub struct BodyHandle(u64);
 
+impl BodyHandle {
+    /// Its number: of those that a world starts with, their indices; then in the order in
+    /// which they come.
+    ///
+    /// ```
+    /// use carom::engine::{Execution, World};
+    /// use carom::{Scene, Sphere};
+    ///
+    /// let ball = Sphere::new([0.0; 3]).radius(0.5);
+    /// let world = World::new(Scene::<f64>::builder().sphere(ball).build()?, Execution::default())?;
+    /// assert_eq!(world.handle_of(0).map(|handle| handle.number()), Some(0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn number(self) -> u64 {
+        self.0
+    }
+}
+
 /// The handles of all bodies, by index. What is added comes last and has the next one, so
 /// that they rise.
 #[derive(Clone, Debug, Default)]
@@ -29,8 +48,7 @@ impl Handles {
     }
 
     /// How many there are.
-    #[cfg(feature = "files")]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.listed.as_ref().map_or(self.next as usize, Vec::len)
     }
 
@@ -39,6 +57,11 @@ impl Handles {
             Some(listed) => listed.get(index).copied(),
             None => Some(BodyHandle(index as u64)).filter(|handle| handle.0 < self.next),
         }
+    }
+
+    /// The number of the body of an index that there is.
+    pub fn number_of(&self, index: u32) -> u32 {
+        self.of(index as usize).map_or(index, |handle| handle.0 as u32)
     }
 
     pub fn index_of(&self, handle: BodyHandle) -> Option<usize> {

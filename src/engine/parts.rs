@@ -15,6 +15,8 @@ pub(super) struct Counter {
     pub index: usize,
     /// Whether its part has a name.
     pub is_named: bool,
+    /// Whether spheres that touch it are removed.
+    pub removes: bool,
 }
 
 /// The counters of parts.
@@ -27,14 +29,16 @@ pub(super) struct Counted {
 }
 
 impl Counted {
-    /// Of a scene: parts with a name, sensors, and all parts if they are few.
+    /// Of a scene: parts with a name, those that count or remove, and all parts if they are few.
     pub fn of<T: Real>(scene: &Scene<T>) -> Self {
         let len = scene.surroundings.len();
         let (mut counters, mut parts) = (Vec::with_capacity(len), Vec::new());
         for (part, shape) in (0..).zip(&scene.surroundings) {
             let is_named = scene.part_names.get(counters.len()).is_some_and(Option::is_some);
-            let is_counted = is_named || shape.is_sensor() || len <= MOST_UNNAMED;
-            counters.push(is_counted.then_some(Counter { index: parts.len(), is_named }));
+            let removes = scene.removes.get(counters.len()).is_some_and(|removes| *removes);
+            let is_counted = is_named || removes || shape.is_sensor() || len <= MOST_UNNAMED;
+            let index = parts.len();
+            counters.push(is_counted.then_some(Counter { index, is_named, removes }));
             if is_counted {
                 parts.push((part, shape.area().map(T::to_f64)));
             }
@@ -88,6 +92,8 @@ pub struct PartTotals {
     pub normal_impulse: f64,
     /// The area of its surface, length², of both sides of what is thin; `None` without end.
     pub area: Option<f64>,
+    /// How many spheres it has taken out.
+    pub removed: u64,
     /// How often centres have passed through it, of a [sensor](crate::surroundings::Sensor).
     pub passages: Option<Passages>,
 }
@@ -101,6 +107,7 @@ impl PartTotals {
             impulse: core::array::from_fn(|axis| before.impulse[axis] + self.impulse[axis]),
             normal_impulse: before.normal_impulse + self.normal_impulse,
             area: self.area,
+            removed: self.removed + before.removed,
             passages: self.passages.map(|mut passages| {
                 passages += before.passages.unwrap_or_default();
                 passages
@@ -123,6 +130,7 @@ impl PartTotals {
             impulse: core::array::from_fn(|axis| self.impulse[axis] - earlier.impulse[axis]),
             normal_impulse: self.normal_impulse - earlier.normal_impulse,
             area: self.area,
+            removed: self.removed - earlier.removed,
             passages: self
                 .passages
                 .map(|passages| passages.since(earlier.passages.unwrap_or_default())),

@@ -88,6 +88,10 @@ pub struct Plan {
     pub features: usize,
     /// Whether triangles of meshes are among them.
     pub has_meshes: bool,
+    /// How many inlets spheres come from.
+    pub inlets: usize,
+    /// How many parts remove spheres.
+    pub drains: usize,
     /// How many sensors look at flights.
     pub sensors: usize,
     /// Which contact law collisions follow.
@@ -159,6 +163,8 @@ impl Plan {
             has_pairs: scene.encounters == Encounters::All && bodies.len() > 1,
             features,
             has_meshes: features > 0 && scene.surroundings.iter().any(|s| s.mesh().is_some()),
+            inlets: scene.inlets.len(),
+            drains: scene.removes.iter().filter(|removes| **removes).count(),
             sensors: scene.surroundings.iter().filter(|shape| shape.is_sensor()).count(),
             surface: scene.surface,
             changes_spins,

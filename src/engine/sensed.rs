@@ -155,8 +155,9 @@ impl Watch {
 
     /// Bodies have moved in a step, each on a straight way.
     fn step<T: Real>(&mut self, centers: &Columns3<T>) {
-        for body in 0..self.seen.flights.len() {
-            let center = Vec3::from([0, 1, 2].map(|axis| centers[axis][body].to_f64()));
+        let [x, y, z] = centers;
+        for (body, ((x, y), z)) in x.iter().zip(y.iter()).zip(z.iter()).enumerate() {
+            let center = Vec3::new(x.to_f64(), y.to_f64(), z.to_f64());
             let begun = &mut self.seen.flights[body];
             begun.velocity = (center - Vec3::from(begun.center)).to_array();
             begun.since = 0.0;

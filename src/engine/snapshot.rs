@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::account::Account;
 use super::event_driven::EventState;
+use super::flow::FlowState;
 use super::handles::Handles;
 use super::later::Elapsed;
 use super::sensed::Seen;
@@ -45,6 +46,8 @@ pub struct Snapshot {
     pub(super) later: Option<Box<SavedLater>>,
     /// What sensors have seen, of a scene that has any.
     pub(super) seen: Option<Box<Seen>>,
+    /// What has come and gone by the scene, if anything does.
+    pub(super) flow: Option<Box<FlowState>>,
 }
 
 /// What a snapshot of a changed world has besides.
@@ -59,7 +62,7 @@ pub(super) struct SavedLater {
 impl Snapshot {
     /// The state of an engine that was not changed on the way.
     pub(super) fn of(account: &Account, state: State) -> Self {
-        Self { account: account.clone(), state, later: None, seen: None }
+        Self { account: account.clone(), state, later: None, seen: None, flow: None }
     }
 }
 
@@ -135,6 +138,11 @@ impl SavedStart {
 pub(super) enum State {
     Stepped(StepState),
     EventDriven(EventState),
+    /// Of an engine without bodies.
+    Idle {
+        time: f64,
+        steps: u64,
+    },
 }
 
 /// Numbers of one precision, bit by bit.

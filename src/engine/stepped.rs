@@ -29,7 +29,8 @@ mod snapshot;
 mod state;
 mod struck;
 
-use super::change::Base;
+use super::change::{Apply, Base};
+use super::flow::counted;
 use super::handles::Handles;
 use super::interface::StepEngine;
 use super::later::{Elapsed, Later};
@@ -68,6 +69,8 @@ pub(super) use snapshot::StepState;
 pub struct Stepped<T: Real> {
     engine: Box<dyn StepEngine<T>>,
     base: Base<T>,
+    /// Lets a change of it take effect.
+    pub(super) apply: Apply<T>,
 }
 
 impl<T: Compiled> Stepped<T> {
@@ -104,7 +107,7 @@ impl<T: Compiled> Stepped<T> {
     /// If the scene has no `dt`, or the system no threads to give.
     pub fn with_execution(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let base = Base::new(&scene, execution);
-        Ok(Self { engine: T::stepped(scene, execution)?, base })
+        Ok(Self { engine: T::stepped(scene, execution)?, base, apply: T::apply })
     }
 
     /// A scene that goes on from what has elapsed.
@@ -116,13 +119,15 @@ impl<T: Compiled> Stepped<T> {
     ) -> Result<Self, EngineError> {
         let base = Base::later(&scene, execution, handles);
         let engine = Later::new(scene, elapsed, |scene| T::stepped(scene, execution))?;
-        Ok(Self { engine: Box::new(engine), base })
+        Ok(Self { engine: Box::new(engine), base, apply: T::apply })
     }
 
     /// Goes on as the scene now is.
     pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
         let elapsed = Elapsed::of(&*self.engine, self.engine.steps());
-        *self = Self::later(scene, self.base.execution, elapsed, handles)?;
+        let mut later = Self::later(scene, self.base.execution, elapsed, handles)?;
+        later.base.flow = self.base.flow.take();
+        *self = later;
         Ok(())
     }
 }
@@ -145,8 +150,7 @@ impl<T: Real> Stepped<T> {
     /// If the duration is negative, not finite, or more than 2⁵³ steps long.
     pub fn advance(&mut self, duration: f64) -> Result<(), EngineError> {
         let steps = self.steps_in(duration)?;
-        self.advance_steps(steps);
-        Ok(())
+        self.go(steps, None)
     }
 
     /// [`advance`](Stepped::advance), and reports the collisions of each step, in
@@ -170,8 +174,7 @@ impl<T: Real> Stepped<T> {
         mut on_event: impl FnMut(&Event<T>),
     ) -> Result<(), EngineError> {
         let steps = self.steps_in(duration)?;
-        self.engine.take_steps(steps, Some(&mut on_event));
-        Ok(())
+        self.go(steps, Some(&mut on_event))
     }
 
     /// The whole number of steps that is nearest to a duration.
@@ -195,8 +198,11 @@ impl<T: Real> Stepped<T> {
     /// assert_eq!(world.steps(), 1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
+    ///
+    /// Where spheres that come or go by the scene are refused it ends, as the next two; what
+    /// [`advance`](Stepped::advance) does next says why.
     pub fn step(&mut self) {
-        self.engine.take_steps(1, None);
+        self.take_steps(1, None);
     }
 
     /// Takes this many steps.
@@ -211,7 +217,7 @@ impl<T: Real> Stepped<T> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn advance_steps(&mut self, steps: u64) {
-        self.engine.take_steps(steps, None);
+        self.take_steps(steps, None);
     }
 
     /// Takes this many steps, and reports the collisions of each as
@@ -228,7 +234,43 @@ impl<T: Real> Stepped<T> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn take_steps(&mut self, steps: u64, on_event: Listener<'_, T>) {
-        self.engine.take_steps(steps, on_event);
+        // What was refused is to be done still, and refused again.
+        self.go(steps, on_event).ok();
+    }
+
+    /// Takes this many steps, between which spheres come and go.
+    pub(crate) fn go(
+        &mut self,
+        steps: u64,
+        mut on_event: Listener<'_, T>,
+    ) -> Result<(), EngineError> {
+        let last = self.steps() + steps;
+        loop {
+            let (now, dt) = (self.time(), self.exact_dt());
+            let left = last - self.steps();
+            let Self { engine, base: Base { flow, handles, .. }, .. } = self;
+            let Some(flow) = flow else {
+                engine.take_steps(left, on_event);
+                return Ok(());
+            };
+            if flow.is_due(now) {
+                self.exchange_due()?;
+                continue;
+            }
+            if left == 0 {
+                return Ok(());
+            }
+            // To the first step at whose end something comes, or may have gone.
+            let ahead = ((flow.next() - now) / dt).ceil().max(1.0) as u64;
+            let steps = if flow.has_drains() { 1 } else { ahead.min(left) };
+            let mut listener = |event: &Event<T>| {
+                let event = flow.hear(event, handles);
+                if let Some(on_event) = &mut on_event {
+                    on_event(&event);
+                }
+            };
+            engine.take_steps(steps, Some(&mut listener));
+        }
     }
 
     /// Length of a step, time.
@@ -379,7 +421,7 @@ impl<T: Real> Stepped<T> {
     /// ```
     #[must_use]
     pub fn parts(&self) -> Vec<PartTotals> {
-        self.engine.parts()
+        counted(self.engine.parts(), self.base.flow.as_deref())
     }
 
     /// The sum of all impulses of the surroundings on the bodies since the
@@ -421,17 +463,27 @@ impl<T: Real> Stepped<T> {
         &self.base
     }
 
+    pub(super) fn base_mut(&mut self) -> &mut Base<T> {
+        &mut self.base
+    }
+
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
         let mut saved = self.engine.save();
         if let Some(later) = &mut saved.later {
             later.handles.clone_from(&self.base.handles);
         }
+        saved.flow = self.base.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
         saved
     }
 
     #[cfg(feature = "files")]
     pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        match (&mut self.base.flow, &saved.flow) {
+            (None, None) => {}
+            (Some(flow), Some(state)) => flow.restore(state)?,
+            _ => return Err(Misfit("spheres that come and go")),
+        }
         self.engine.restore(saved)
     }
 

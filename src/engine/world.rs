@@ -87,7 +87,7 @@ impl<T: Compiled> World<T> {
             Some(later) => {
                 let SavedLater { elapsed, start, handles, .. } = &**later;
                 let (gravity, bodies) = start.read().map_err(misfit)?;
-                if handles.len() != bodies.len() {
+                if handles.count() != bodies.len() {
                     return Err(misfit(Misfit("bodies")));
                 }
                 let scene = Scene { gravity, bodies, ..scene };

@@ -43,15 +43,13 @@ impl Energy {
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>, gravity: Vec3<T>) -> Self {
         let gravity = gravity.cast::<f64>();
-        let [mut translational, mut rotational, mut potential] = [CompensatedSum::default(); 3];
+        let mut sums = [CompensatedSum::default(); 3];
         for index in 0..bodies.len() {
-            let mass = bodies.mass.of(index).to_f64();
-            let inertia = bodies.inertia.of(index).to_f64();
-            translational
-                .add(0.5 * mass * bodies.velocity_of(index).cast::<f64>().length_squared());
-            rotational.add(0.5 * inertia * bodies.spin_of(index).cast::<f64>().length_squared());
-            potential.add(-mass * gravity.dot(bodies.position_of(index).cast()));
+            for (sum, energy) in sums.iter_mut().zip(bodies.energy_of(index, gravity)) {
+                sum.add(energy);
+            }
         }
+        let [translational, rotational, potential] = sums;
         Self {
             translational: translational.value(),
             rotational: rotational.value(),

@@ -41,9 +41,7 @@ impl Momentum {
     /// ```
     #[must_use]
     pub fn of<T: Real>(bodies: &Bodies<T>) -> Self {
-        Self(total(bodies, |index| {
-            bodies.velocity_of(index).cast::<f64>() * bodies.mass.of(index).to_f64()
-        }))
+        Self(total(bodies, |index| bodies.momentum_of(index)))
     }
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Energy, Images, Momentum, Temperature, collision_rate, compressibility, total_mass};
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
-use crate::engine::{Collisions, PartTotals, World};
+use crate::engine::{Collisions, Exchange, PartTotals, World};
 use crate::real::Real;
 
 /// What is measured of a world at one time. Rates and the pressure are of the time
@@ -52,6 +52,8 @@ pub struct Sample {
     /// What the parts of the surroundings that are counted apart have done since the start,
     /// in the order of the scene.
     pub parts: Vec<PartTotals>,
+    /// What has come and gone by the scene since the start.
+    pub exchange: Exchange,
 }
 
 impl Sample {
@@ -70,6 +72,7 @@ impl Sample {
             virial: world.virial(),
             impulse: world.impulse_from_surroundings(),
             parts: world.parts(),
+            exchange: world.exchange(),
         }
     }
 
@@ -83,6 +86,9 @@ impl Sample {
     #[must_use]
     pub fn rate_since(&self, earlier: &Self) -> Option<f64> {
         let pairs = self.collisions.pairs - earlier.collisions.pairs;
+        if self.bodies == 0 {
+            return None;
+        }
         Some(collision_rate(self.bodies, pairs, self.elapsed(earlier)?))
     }
 
@@ -144,5 +150,6 @@ fn center<T: Real>(bodies: &Bodies<T>, images: Option<&Images<T>>) -> [f64; 3] {
         }
     }
     let mass = total_mass(bodies);
-    sums.map(|sum| sum.value() / mass)
+    // Without bodies there is no centre to tell.
+    if bodies.is_empty() { [0.0; 3] } else { sums.map(|sum| sum.value() / mass) }
 }

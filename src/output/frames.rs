@@ -32,6 +32,15 @@ pub struct Frame<'a, T: Real> {
     pub space: Option<PeriodicBox<T>>,
     /// Through how many whole boxes each body has moved; `None` in open space.
     pub images: Option<&'a Images<T>>,
+    /// What bodies are numbered by, where some may have come or gone; `None`: from 0.
+    pub numbers: Option<&'a [u64]>,
+}
+
+impl<T: Real> Frame<'_, T> {
+    /// The number of the body of an index.
+    fn number(&self, index: usize) -> i64 {
+        self.numbers.map_or(index as i64, |numbers| numbers[index] as i64)
+    }
 }
 
 /// What frames can be written as, by the ending of a file's name.
@@ -88,7 +97,7 @@ impl FrameFormat {
 ///
 /// let bodies = Bodies::from_positions(&[[0.5, 0.0, 2.0]]).radius(0.5).build()?;
 /// let mut writer = FrameWriter::new(FrameFormat::Xyz, Path::new("run.xyz"), Vec::new())?;
-/// writer.write(&Frame { time: 0.0, step: 0, bodies: &bodies, space: None, images: None })?;
+/// writer.write(&Frame { time: 0.0, step: 0, bodies: &bodies, space: None, images: None, numbers: None })?;
 /// let text = String::from_utf8(writer.finish()?)?;
 /// assert!(text.starts_with("1\nLattice="));
 /// assert!(text.contains("\nX 0.5 0.0 2.0 "));

@@ -107,7 +107,7 @@ impl Wrong {
 /// let path = folder.path().join("run.xyz");
 /// let bodies = Bodies::from_positions(&[[0.5, 0.0, 2.0]]).radius(0.5).build()?;
 /// let mut writer = FrameWriter::new(FrameFormat::Xyz, &path, std::fs::File::create(&path)?)?;
-/// writer.write(&Frame { time: 1.5, step: 0, bodies: &bodies, space: None, images: None })?;
+/// writer.write(&Frame { time: 1.5, step: 0, bodies: &bodies, space: None, images: None, numbers: None })?;
 /// writer.finish()?;
 /// for frame in FrameReader::open(&path)? {
 ///     let frame = frame?;

@@ -16,6 +16,11 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
+    /// A coordinate of the centre of mass, if there is any.
+    fn center(&self, axis: usize) -> Option<f64> {
+        (self.now.bodies > 0).then(|| self.now.center[axis])
+    }
+
     /// What a part did up to now, and up to the row before and since what time.
     fn part(&self, part: u32) -> Option<(&PartTotals, Option<(&PartTotals, f64)>)> {
         let before = self.before.and_then(|before| before.part(part).zip(self.now.elapsed(before)));
@@ -54,7 +59,17 @@ macro_rules! columns {
 }
 
 /// The columns of counts.
-const COUNTS: [&str; 5] = ["pairs", "surroundings", "collisions", "inward", "outward"];
+const COUNTS: [&str; 9] = [
+    "pairs",
+    "surroundings",
+    "collisions",
+    "inward",
+    "outward",
+    "spheres",
+    "came",
+    "waits",
+    "removed",
+];
 
 /// What a column of a part is called, behind the name of the part.
 const PART_COLUMNS: &[(&str, PartFigure)] = columns! {
@@ -113,9 +128,17 @@ const COLUMNS: &[(&str, WholeFigure)] = columns! {
     "force_x": |row| Some(row.now.force_since(row.before?)?[0]),
     "force_y": |row| Some(row.now.force_since(row.before?)?[1]),
     "force_z": |row| Some(row.now.force_since(row.before?)?[2]),
-    "center_x": |row| Some(row.now.center[0]),
-    "center_y": |row| Some(row.now.center[1]),
-    "center_z": |row| Some(row.now.center[2]),
+    "center_x": |row| row.center(0),
+    "center_y": |row| row.center(1),
+    "center_z": |row| row.center(2),
+};
+
+/// Those of a scene where spheres come and go.
+const FLOW_COLUMNS: &[(&str, WholeFigure)] = columns! {
+    "spheres": |row| Some(row.now.bodies as f64),
+    "came": |row| Some(row.now.exchange.came.spheres as f64),
+    "waits": |row| Some(row.now.exchange.waits as f64),
+    "removed": |row| Some(row.now.exchange.removed.spheres as f64),
 };
 
 impl SeriesColumn {
@@ -162,6 +185,18 @@ impl SeriesColumn {
 
     fn new(name: Cow<'static, str>, figure: Figure, kind: &str) -> Self {
         Self { name, figure, is_count: COUNTS.contains(&kind) }
+    }
+
+    /// The columns of a scene where spheres come and go: how many there are, and since the
+    /// start how many came, how often one had to wait, and how many were removed.
+    ///
+    /// ```
+    /// use carom::output::SeriesColumn;
+    /// assert_eq!(SeriesColumn::of_flow().next().map(|column| column.name().to_owned()).as_deref(), Some("spheres"));
+    /// ```
+    pub fn of_flow() -> impl Iterator<Item = Self> {
+        let columns = FLOW_COLUMNS.iter();
+        columns.map(|(name, figure)| Self::new((*name).into(), Figure::Of(*figure), name))
     }
 
     /// What it is called.

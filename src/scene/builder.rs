@@ -4,6 +4,7 @@ use super::checked::Scene;
 use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
+use super::inlet::Inlet;
 use super::origin::Origin;
 use super::settings::{Encounters, EngineKind, Impact, OrientationUpdate, Summation};
 use super::spheres::{Sphere, Spheres};
@@ -224,6 +225,7 @@ impl<T: Real> SceneBuilder<T> {
     pub fn surroundings(mut self, shape: impl Into<Shape<T>>) -> Self {
         self.description.surroundings.push(GivenShape::rounded(shape.into()));
         self.description.part_names.push(None);
+        self.description.removes.push(false);
         self
     }
 
@@ -248,6 +250,46 @@ impl<T: Real> SceneBuilder<T> {
         self = self.surroundings(shape);
         self.description.part_names.pop();
         self.description.part_names.push(Some(name.into()));
+        self
+    }
+
+    /// Adds something fixed in space that takes the spheres which touch it out of the world,
+    /// under a name.
+    ///
+    /// ```
+    /// use carom::engine::World;
+    /// use carom::{Execution, Plane, Scene, Sphere};
+    ///
+    /// let ball = |height| {
+    ///     Sphere::new([0.0, 0.0, height]).radius(0.5).velocity([0.0, 0.0, -1.0])
+    /// };
+    /// let scene = Scene::<f64>::builder()
+    ///     .removing_surroundings("drain", Plane::new([0.0; 3], [0.0, 0.0, 1.0]))
+    ///     .sphere(ball(2.0))
+    ///     .sphere(ball(4.0))
+    ///     .build()?;
+    /// let mut world = World::new(scene, Execution::default())?;
+    /// world.advance(3.0)?;
+    /// assert_eq!(world.bodies().len(), 1);
+    /// assert_eq!(world.exchange().removed.spheres, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn removing_surroundings(
+        mut self,
+        name: impl Into<String>,
+        shape: impl Into<Shape<T>>,
+    ) -> Self {
+        self = self.named_surroundings(name, shape);
+        self.description.removes.pop();
+        self.description.removes.push(true);
+        self
+    }
+
+    /// Adds a source of spheres: see [`Inlet`].
+    #[must_use]
+    pub fn inlet(mut self, inlet: Inlet) -> Self {
+        self.description.inlets.push(inlet);
         self
     }
 

@@ -61,6 +61,7 @@ pub fn builtin_scenes() -> &'static [BuiltinScene] {
         "giant-in-dust": "a sphere among 5,000 that are a hundred times smaller",
         "galton-board": "2,000 balls fall through ten rows of pins between two panes",
         "funnel": "rough balls fall through a funnel into a container",
+        "hopper": "balls come into a hopper, fall through its outlet and are taken out",
         "drum": "rough balls in a drum that lies on its side",
         "sinai-billiard": "a ball between four walls, with a post in the middle",
         "ball-in-torus": "a ball in a torus, which keeps its angular momentum about the axis",

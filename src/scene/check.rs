@@ -7,6 +7,7 @@ use std::collections::HashMap;
 
 use super::description::{Description, Entry, Given, Periodicity};
 use super::error::{Keyed, Problem, SceneError};
+use super::inlet::{Inlet, Opening};
 use super::settings::{EngineKind, MOST_BODIES, MOST_STEPS};
 use super::spheres::{Make, Spheres, Spread};
 use crate::bodies::{Bodies, PerBody};
@@ -14,6 +15,7 @@ use crate::contact::Surface;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::surroundings::{Mistake, corners, finite, is_positive, positive};
+use crate::vec3::Vec3;
 
 /// A mistake of one body: the key of its entry, and the problem.
 pub(super) type Found = (usize, &'static str, Problem);
@@ -38,6 +40,17 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
         let entry = format!("surroundings[{index}]");
         let shape = &given.rounded;
         shape.check().map_err(|mistake| origin.error_in(&entry, mistake))?;
+        let removes = asked.removes.get(index).is_some_and(|removes| *removes);
+        if removes && shape.is_sensor() {
+            let reason = "nothing touches a sensor; leave out one of them";
+            let problem = Problem::conflict("sensor = true", reason);
+            return Err(origin.error(format!("{entry}.removes"), problem));
+        }
+        if is_periodic && removes {
+            let reason = "a periodic box keeps its spheres; leave out one of them";
+            let problem = Problem::conflict("a periodic box", reason);
+            return Err(origin.error(format!("{entry}.removes"), problem));
+        }
         if is_periodic && shape.is_sensor() {
             let reason = "a sensor counts in open space only; leave out one of them";
             return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
@@ -54,6 +67,59 @@ pub(super) fn settings<T: Real>(asked: &Description<T>) -> Result<(), SceneError
             };
             return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
         }
+    }
+    for (index, inlet) in asked.inlets.iter().enumerate() {
+        let entry = format!("inlet[{index}]");
+        if is_periodic {
+            let reason = "a periodic box keeps its spheres; leave out one of them";
+            return Err(origin.error(entry, Problem::conflict("a periodic box", reason)));
+        }
+        self::inlet::<T>(inlet).map_err(|keyed| origin.error_in(&entry, keyed))?;
+        let every = inlet.every.unwrap_or(1.0);
+        if asked.duration.unwrap_or(0.0) / every > MOST_STEPS {
+            let wanted = "that is more than 2^53 spheres, and more than can be counted";
+            return Err(origin.error_in(&entry, Mistake::value("every", every, wanted)));
+        }
+    }
+    Ok(())
+}
+
+/// A source of spheres.
+fn inlet<T: Real>(inlet: &Inlet) -> Result<(), Keyed> {
+    make::<T>(&inlet.make)?;
+    temperatures::<T>(inlet.temperature, inlet.spin_temperature)?;
+    match inlet.opening {
+        Opening::At(place) => finite::<T>("position", place.into(), "every component")?,
+        Opening::Box([lower, upper]) => {
+            for (key, corner) in [("lower", lower), ("upper", upper)] {
+                finite::<T>(key, corner.into(), "every component")?;
+            }
+            if (0..3).any(|axis| lower[axis] > upper[axis]) {
+                let wanted = "no component may be less than that of lower";
+                return Err(Mistake::value("upper", upper, wanted).into());
+            }
+        }
+        Opening::Disc(center, axis, reach) => {
+            finite::<T>("center", center.into(), "every component")?;
+            let length = Vec3::from(axis).length();
+            if !(length.is_normal() && (1.0 / length).is_normal()) {
+                let wanted = "an axis must be finite and have a length greater than 0";
+                return Err(Mistake::value("axis", axis, wanted).into());
+            }
+            positive::<T>("reach", reach, "a distance")?;
+        }
+    }
+    let Some(every) = inlet.every else {
+        let wanted = "how much time is from one sphere to the next, or their rate per time";
+        return Err(Mistake::missing("every", wanted).into());
+    };
+    positive::<f64>("every", every, "a time")?;
+    if !(inlet.from >= 0.0 && inlet.from.is_finite()) {
+        let wanted = "a time must be finite and not negative";
+        return Err(Mistake::value("from", inlet.from, wanted).into());
+    }
+    if inlet.count == Some(0) {
+        return Err(Mistake::value("count", 0, "a count must be at least 1").into());
     }
     Ok(())
 }
@@ -131,7 +197,13 @@ pub(super) fn entries<T: Real>(asked: &Description<T>) -> Result<Vec<Range<usize
         }
         ranges.push(start as usize..total as usize);
     }
-    if total == 0 { Err(asked.origin.error("", Problem::Empty)) } else { Ok(ranges) }
+    // A world may have lost all of them.
+    let is_left_empty = !asked.inlets.is_empty()
+        || asked.removes.contains(&true) && matches!(asked.entries[..], [Entry::Ready(_)]);
+    if total == 0 && !is_left_empty {
+        return Err(asked.origin.error("", Problem::Empty));
+    }
+    Ok(ranges)
 }
 
 /// What spheres are whose places are in a file.
@@ -179,19 +251,23 @@ fn spread<T: Real>(key: &'static str, spread: &Spread, what: &str) -> Result<(),
     Ok(())
 }
 
-/// What only many spheres have.
-fn many<T: Real>(spheres: &Spheres) -> Result<(), Mistake> {
-    if spheres.count == 0 {
-        return Err(Mistake::value("count", 0, "a count must be at least 1"));
-    }
-    for (key, temperature) in
-        [("temperature", spheres.temperature), ("spin_temperature", spheres.spin_temperature)]
-    {
+/// Those of centres and of spins.
+fn temperatures<T: Real>(centers: f64, spins: f64) -> Result<(), Mistake> {
+    for (key, temperature) in [("temperature", centers), ("spin_temperature", spins)] {
         if !(temperature >= 0.0 && T::from_f64(temperature).is_finite()) {
             let wanted = "a temperature, kT in units of energy, must be finite and not negative";
             return Err(Mistake::value(key, temperature, wanted));
         }
     }
+    Ok(())
+}
+
+/// What only many spheres have.
+fn many<T: Real>(spheres: &Spheres) -> Result<(), Mistake> {
+    if spheres.count == 0 {
+        return Err(Mistake::value("count", 0, "a count must be at least 1"));
+    }
+    temperatures::<T>(spheres.temperature, spheres.spin_temperature)?;
     if let Some(density) = spheres.number_density {
         positive::<T>("number_density", density, "a number density")?;
     }

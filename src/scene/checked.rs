@@ -4,6 +4,7 @@ use super::check_bodies::Sources;
 use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
+use super::inlet::Inlet;
 use super::origin::Origin;
 use super::settings::{Encounters, EngineKind, SteppedSettings};
 use super::{check, check_bodies, generate};
@@ -56,6 +57,10 @@ pub struct Scene<T: Real> {
     pub surroundings: Vec<Shape<T>>,
     /// What these parts are called, as many; `None` without a name.
     pub part_names: Vec<Option<String>>,
+    /// Whether they take out of the world the spheres that touch them, as many.
+    pub removes: Vec<bool>,
+    /// Where spheres come in, each with its seed.
+    pub inlets: Vec<Inlet>,
     /// What only the stepped engine asks.
     pub stepped: SteppedSettings,
     /// The spheres, in the order of the file.
@@ -114,6 +119,8 @@ impl<T: Real> Scene<T> {
                 .map_or(Periodicity::Open, |space| Periodicity::Box(GivenBox::rounded(space))),
             surroundings: self.surroundings.iter().cloned().map(GivenShape::rounded).collect(),
             part_names: self.part_names.clone(),
+            removes: self.removes.clone(),
+            inlets: self.inlets.clone(),
             stepped: self.stepped,
             entries: vec![Entry::Ready(Box::new(bodies))],
             ..Description::new(self.name.clone(), Origin::code(&self.name))
@@ -132,6 +139,8 @@ impl<T: Real> Scene<T> {
             periodic: self.periodic,
             surroundings: self.surroundings.clone(),
             part_names: self.part_names.clone(),
+            removes: self.removes.clone(),
+            inlets: self.inlets.clone(),
             stepped: self.stepped,
             bodies: Bodies::none(),
         }
@@ -146,6 +155,9 @@ impl<T: Real> Scene<T> {
         check::settings(&asked)?;
         let ranges = check::entries(&asked)?;
         let periodic = generate::periodic_box(&asked)?;
+        for inlet in &mut asked.inlets {
+            inlet.seed.get_or_insert(asked.seed);
+        }
         let origins: Vec<_> = asked.entries.iter().map(Entry::known_origin).collect();
         let bodies = generate::bodies(&mut asked, periodic.map(|given| given.exact), &ranges)?;
         let periodic = periodic.map(|given| given.rounded);
@@ -165,6 +177,8 @@ impl<T: Real> Scene<T> {
             periodic,
             surroundings: asked.surroundings.into_iter().map(|given| given.rounded).collect(),
             part_names: asked.part_names,
+            removes: asked.removes,
+            inlets: asked.inlets,
             stepped: asked.stepped,
             bodies,
         })

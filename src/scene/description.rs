@@ -1,6 +1,7 @@
 //! Description: what a scene is asked to be, as plain data. A builder or a file
 //! fills it in; nothing is checked yet.
 
+use super::inlet::Inlet;
 use super::origin::Origin;
 use super::settings::{Encounters, EngineKind, SteppedSettings};
 use super::spheres::{Sphere, Spheres};
@@ -88,6 +89,8 @@ pub struct Description<T: Real> {
     pub(super) periodic: Periodicity<T>,
     pub(super) surroundings: Vec<GivenShape<T>>,
     pub(super) part_names: Vec<Option<String>>,
+    pub(super) removes: Vec<bool>,
+    pub(super) inlets: Vec<Inlet>,
     pub(super) stepped: SteppedSettings,
     pub(super) seed: u64,
     pub(super) entries: Vec<Entry<T>>,
@@ -108,6 +111,8 @@ impl<T: Real> Description<T> {
             periodic: Periodicity::Open,
             surroundings: Vec::new(),
             part_names: Vec::new(),
+            removes: Vec::new(),
+            inlets: Vec::new(),
             stepped: SteppedSettings::default(),
             seed: 0,
             entries: Vec::new(),

@@ -19,6 +19,7 @@ use super::random::Seed;
 use super::raw::{Number, RawPeriodic, RawScene, RawSpheres, Vector, Whole};
 use super::reading;
 use super::settings::{EngineKind, Precision, SteppedSettings};
+use super::sources;
 use super::spheres::{Arrangement, Make, Sphere, Spheres, Spread};
 use super::state_file::StateFile;
 use crate::real::Real;
@@ -305,6 +306,7 @@ impl SceneFile {
             let shape = fixed::shape(&origin, index, raw, &self.folder)?;
             asked.surroundings.push(GivenShape::exact(shape));
             asked.part_names.push(raw.name.clone());
+            asked.removes.push(raw.removes);
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
             let entry = match &raw.file {
@@ -313,7 +315,23 @@ impl SceneFile {
             };
             asked.entries.push(entry);
         }
+        for (index, raw) in self.raw.inlet.iter().enumerate() {
+            asked.inlets.push(sources::inlet(&origin, index, raw)?);
+        }
         Ok(asked)
+    }
+
+    /// Whether spheres come or go on the way.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let text = "[[inlet]]\nposition = [0, 0, 0]\nradius = 0.5\nevery = 1";
+    /// assert!(SceneFile::parse("tap", text)?.has_flow());
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn has_flow(&self) -> bool {
+        !self.raw.inlet.is_empty() || self.raw.surroundings.iter().any(|raw| raw.removes)
     }
 
     /// What the parts of the surroundings are called, in the order of the file, and whether

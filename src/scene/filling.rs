@@ -214,7 +214,7 @@ fn spins(
 
 /// Draws `count` vectors of a Maxwell distribution: each component with
 /// variance `kT` over the inertia.
-fn thermal(
+pub(super) fn thermal(
     count: usize,
     temperature: f64,
     inertia: &Values,

@@ -37,6 +37,8 @@ pub(super) struct RawScene {
     #[serde(default, deserialize_with = "entries")]
     pub(super) spheres: Vec<RawSpheres>,
     #[serde(default)]
+    pub(super) inlet: Vec<RawInlet>,
+    #[serde(default)]
     pub(super) record: RawWritten,
     #[serde(default)]
     pub(super) series: RawSeries,
@@ -135,6 +137,31 @@ pub(super) struct RawSpheres {
     pub(super) lower: Option<Vector>,
     pub(super) upper: Option<Vector>,
     pub(super) number_density: Option<Number>,
+    pub(super) radius: Option<Spread>,
+    pub(super) mass: Option<Spread>,
+    pub(super) density: Option<Spread>,
+    pub(super) inertia_factor: Option<Number>,
+    pub(super) velocity: Option<Vector>,
+    pub(super) spin: Option<Vector>,
+    pub(super) temperature: Option<Number>,
+    pub(super) spin_temperature: Option<Number>,
+}
+
+/// `[[inlet]]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawInlet {
+    pub(super) position: Option<Vector>,
+    pub(super) lower: Option<Vector>,
+    pub(super) upper: Option<Vector>,
+    pub(super) center: Option<Vector>,
+    pub(super) axis: Option<Vector>,
+    pub(super) reach: Option<Number>,
+    pub(super) every: Option<Number>,
+    pub(super) rate: Option<Number>,
+    pub(super) count: Option<Whole>,
+    pub(super) from: Option<Number>,
+    pub(super) seed: Option<Whole>,
     pub(super) radius: Option<Spread>,
     pub(super) mass: Option<Spread>,
     pub(super) density: Option<Spread>,

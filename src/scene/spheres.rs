@@ -206,6 +206,8 @@ macro_rules! make_setters {
     };
 }
 
+pub(super) use make_setters;
+
 /// One sphere of a scene.
 ///
 /// ```

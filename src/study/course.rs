@@ -93,7 +93,7 @@ impl Course {
             World::Stepped(world) => {
                 let left = (mark - world.steps() as f64).ceil() as u64;
                 let steps = stretch.min(left);
-                world.take_steps(steps, on_event);
+                world.go(steps, on_event)?;
                 Ok(steps == left)
             }
             World::EventDriven(world) => {

@@ -7,6 +7,7 @@ mod cases;
 mod ends;
 mod event_driven;
 mod files;
+mod flow;
 mod frames;
 mod measured;
 mod series;

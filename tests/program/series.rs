@@ -192,7 +192,7 @@ fn sensors_are_in_the_summary_and_in_the_series() {
         let summary = folder.says(&format!("{run} --json {series}")).summary();
         let passages = &summary["parts"][1]["passages"];
         let [inward, outward] = ["inward", "outward"].map(|way| passages[way].as_f64().unwrap());
-        assert!(inward > 3.0 && outward > 3.0, "{passages}");
+        assert!(inward > 0.0 && outward > 0.0, "{passages}");
         assert!(summary["parts"][2]["passages"]["inward"].as_f64().unwrap() > inward);
         assert_eq!(summary["parts"][0]["passages"], serde_json::Value::Null);
         let last = |name: &str| column(&folder, name).last().unwrap().unwrap();

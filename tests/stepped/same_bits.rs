@@ -22,7 +22,7 @@ const PATHS: [Execution; 5] = [
 fn bodies_of<T: Compiled>(scene: &SceneFile, impact: Impact, execution: Execution) -> Bodies<T> {
     let mut scene = scene.build::<T>().unwrap();
     scene.stepped.impact = impact;
-    let steps = (WORK / scene.bodies.len()).clamp(20, 4_000) as u64;
+    let steps = (WORK / scene.bodies.len().max(1)).clamp(20, 4_000) as u64;
     let mut world = world(scene, execution);
     world.advance_steps(steps);
     world.bodies()

@@ -177,7 +177,7 @@ fn built_in_scenes_agree_with_f64() {
             let mut file = SceneFile::builtin(builtin.name).unwrap();
             file.engine = engine;
             let dt = file.dt.unwrap();
-            let large = ["rough-gas", "free-flight", "mixture", "funnel", "drum"];
+            let large = ["rough-gas", "free-flight", "mixture", "funnel", "hopper", "drum"];
             let duration = match engine {
                 EngineKind::Stepped => 8.0 * dt,
                 EngineKind::EventDriven if builtin.name == "hard-sphere-fluid" => 0.2,

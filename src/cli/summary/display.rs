@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{PartSummary, Summary, shortest};
+use super::{PartSummary, SpheresSummary, Summary, shortest};
 use carom::observe::Statistic;
 use carom::study::table::{Table, counted, difference, digits, grouped, plain, rounded, seconds};
 use carom::surroundings::Passages;
@@ -61,6 +61,14 @@ impl Summary {
             time += &format!(", measured after {}", plain(equilibrate));
         }
         line("  time", time);
+        if let Some(SpheresSummary { came, waits, removed, end, .. }) = self.spheres {
+            let mut text = format!("{} came, {} removed", grouped(came), grouped(removed));
+            text += &format!("; {} at the end", grouped(end as u64));
+            if waits > 0 {
+                text += &format!("; {} without room", grouped(waits));
+            }
+            line("  spheres", text);
+        }
         line(
             "  collisions",
             format!(

@@ -62,7 +62,9 @@ pub(super) fn collide_with_feature<T: Real>(
     let mark = next_mark(region, slot, partner, generation);
     depart(setting, region, clock, slot, &outcome.departure, mark);
     let impulses = [outcome.impulse.normal, outcome.impulse.tangential];
-    region.worker.account.surroundings(impulses, setting.counter(feature));
+    let counter = setting.counter(feature);
+    region.worker.account.surroundings(impulses, counter);
+    region.worker.has_removed |= counter.is_some_and(|counter| counter.removes);
     look_ahead(setting, region, slot, nearby, time, clock.period);
     outcome
 }

@@ -9,7 +9,7 @@ use super::setting::Setting;
 use super::snapshot;
 use super::store::Store;
 use super::territories::Team;
-use super::turns::{next_turn, take_turn};
+use super::turns::{is_removed_next, next_turn, take_turn};
 use crate::bodies::Bodies;
 use crate::column::Column;
 use crate::compensated::CompensatedSum;
@@ -44,7 +44,12 @@ impl<T: Real> Driver<T> {
     /// A scene at its start.
     pub fn new(scene: Scene<T>, execution: Execution) -> Result<Self, EngineError> {
         let plan = Plan::new(&scene, EngineKind::EventDriven, execution, 1);
+        let removes = scene.removes.contains(&true);
         let (mut setting, cells) = Setting::new(scene, plan, execution);
+        if removes {
+            // A window is not cut where a body is removed.
+            setting.plan.order = Order::Strict;
+        }
         let pool = match setting.plan.order {
             Order::Windows => Workers::new(setting.plan.threads)?,
             _ => Workers::default(),
@@ -90,7 +95,8 @@ impl<T: Real> Driver<T> {
     }
 
     /// Takes turns in order of time up to `limit`, which is included, or up to the given
-    /// number of collisions of the run, or until a body is too fast for the period.
+    /// number of collisions of the run, or until a body is too fast for the period, or has
+    /// touched what removes it; then those that do so at the same time come too.
     fn advance_strictly(
         &mut self,
         limit: T,
@@ -113,9 +119,13 @@ impl<T: Real> Driver<T> {
             clock.count();
             if take_turn(setting, &mut region, clock, turn, on_event).unwrap_or(false) {
                 clock.last_collision = turn.time;
+                if region.worker.has_removed && !is_removed_next(setting, &mut region, turn.time) {
+                    break;
+                }
             }
         }
-        let is_stopped = region.worker.account.collisions.total() >= last;
+        let is_past = region.worker.account.collisions.total() >= last;
+        let is_stopped = is_past || region.worker.has_removed;
         clock.worked_off = if is_stopped { clock.last_collision } else { limit };
         Ok(())
     }
@@ -181,7 +191,8 @@ impl<T: Real> EventEngine<T> for Driver<T> {
                 self.advance_strictly(limit, last, &mut on_event)?;
             }
             let is_stopped = is_exact || self.clock.window.is_none();
-            if is_stopped && self.account().collisions.total() == last {
+            let has_removed = core::mem::take(&mut self.team.first().has_removed);
+            if has_removed || is_stopped && self.account().collisions.total() == last {
                 let now = self.clock.not_before(self.clock.last_collision);
                 // Not beyond the end, up to which it may have been rounded.
                 self.clock.time = self.clock.time.max(now).min(time);

@@ -78,6 +78,8 @@ pub(super) struct Worker<T: Real> {
     pub is_stuck: bool,
     /// Whether a body has become too fast for the period.
     pub is_too_fast: bool,
+    /// Whether a body has touched a part that removes it.
+    pub has_removed: bool,
 
     /// Slots of bodies that a body may meet, for each of two bodies that have collided.
     pub found: [Vec<u32>; 2],
@@ -105,6 +107,7 @@ impl<T: Real> Worker<T> {
             busiest: 0.0,
             is_stuck: false,
             is_too_fast: false,
+            has_removed: false,
             found: [Vec::new(), Vec::new()],
             later: Vec::new(),
             meetings: Meetings::new(),

@@ -24,6 +24,18 @@ pub(super) fn next_turn<T: Real>(region: &mut Region<'_, T>) -> Option<Turn<T>> 
     calendar.next(time_of, |a, b| order(&keys, next, a, b))
 }
 
+/// Whether the next turn is at a time, and of a body that touches what removes it.
+pub(super) fn is_removed_next<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<'_, T>,
+    time: T,
+) -> bool {
+    let Some(turn) = next_turn(region).filter(|turn| turn.time == time) else { return false };
+    let Next::Meets(expected) = region.agendas[turn.slot as usize].next() else { return false };
+    let counter = expected.partner.decoded().err().and_then(|feature| setting.counter(feature));
+    counter.is_some_and(|counter| counter.removes)
+}
+
 /// Enters a turn.
 #[inline(always)]
 pub(super) fn enter<T: Real>(region: &mut Region<'_, T>, turn: Turn<T>) {

@@ -55,9 +55,18 @@ impl fmt::Display for Plan {
         )?;
         row("pairs", self.pairs())?;
         row("surroundings", &self.surroundings())?;
+        if self.inlets + self.drains > 0 {
+            let how = format!(
+                "{}, {}: the world is built again at each exchange",
+                counted(self.inlets, "inlet", "inlets"),
+                counted(self.drains, "part that removes", "parts that remove"),
+            );
+            row("spheres", &how)?;
+        }
         if self.sensors > 0 {
             let when = if is_stepped { "after each step" } else { "when collisions end them" };
-            row("sensors", &format!("{}: ways are looked at {when}", self.sensors))?;
+            let count = counted(self.sensors, "sensor", "sensors");
+            row("passages", &format!("{count}: ways are looked at {when}"))?;
         }
         let contacts = self.has_pairs || self.features > 0;
         row(
@@ -104,6 +113,11 @@ impl fmt::Display for Plan {
             },
         )
     }
+}
+
+/// How many there are of something.
+fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
 }
 
 impl Plan {

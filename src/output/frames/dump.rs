@@ -33,7 +33,7 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
     let species = species(bodies);
     let figures = Figures::of(bodies);
     rows::write(output, bodies.len(), |row, index| {
-        whole(row, [index as i64 + 1, i64::from(species[index])]);
+        whole(row, [frame.number(index) + 1, i64::from(species[index])]);
         figures.add(row, bodies, index);
         numbers(row, bodies.position_of(index).to_array());
         whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));

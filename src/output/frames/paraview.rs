@@ -107,7 +107,7 @@ fn write_points<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> 
     array(output, "connectivity", 1, each().map(|k| k as i64))?;
     array(output, "offsets", 1, each().map(|k| k as i64 + 1))?;
     writeln!(output, "    </Verts>\n    <PointData>")?;
-    array(output, "id", 1, each().map(|k| k as i64))?;
+    array(output, "id", 1, each().map(|k| frame.number(k)))?;
     array(output, "type", 1, species(bodies).into_iter().map(i64::from))?;
     array(output, "radius", 1, each().map(|k| bodies.radius.of(k)))?;
     array(output, "mass", 1, each().map(|k| bodies.mass.of(k)))?;

@@ -39,7 +39,7 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
         }
         row.push(b' ');
         numbers(row, bodies.position_of(index).to_array());
-        whole(row, [index as i64]);
+        whole(row, [frame.number(index)]);
         figures.add(row, bodies, index);
         whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());

@@ -17,6 +17,7 @@ pub(in crate::scene) struct RawSurroundings {
     pub(in crate::scene) values: ShapeEntry,
     pub(in crate::scene) name: Option<String>,
     pub(in crate::scene) sensor: bool,
+    pub(in crate::scene) removes: bool,
     pub(in crate::scene) translation: Option<Vector>,
     pub(in crate::scene) rotation: Option<RawRotation>,
     pub(in crate::scene) scale: Option<Number>,
@@ -53,6 +54,8 @@ const SHAPE: &str = "shape";
 const NAME: &str = "name";
 /// Whether a part only counts.
 const SENSOR: &str = "sensor";
+/// Whether a part takes out what touches it.
+const REMOVES: &str = "removes";
 /// Where a shape is moved to.
 const TRANSLATION: &str = "translation";
 /// How a shape is turned.
@@ -74,7 +77,11 @@ pub(in crate::scene) static KEYS: LazyLock<Vec<Key>> = LazyLock::new(|| {
 /// The names of all keys.
 static KEY_NAMES: LazyLock<Vec<&str>> = LazyLock::new(|| {
     let own = KEYS.iter().map(|key| key.name);
-    [SHAPE].into_iter().chain(own).chain([NAME, SENSOR, TRANSLATION, ROTATION, SCALE]).collect()
+    [SHAPE]
+        .into_iter()
+        .chain(own)
+        .chain([NAME, SENSOR, REMOVES, TRANSLATION, ROTATION, SCALE])
+        .collect()
 });
 
 /// The names of all shapes.
@@ -86,6 +93,7 @@ enum Field {
     Shape,
     Name,
     Sensor,
+    Removes,
     Translation,
     Rotation,
     Scale,
@@ -106,6 +114,7 @@ impl<'de> Deserialize<'de> for Field {
                     SHAPE => return Ok(Field::Shape),
                     NAME => return Ok(Field::Name),
                     SENSOR => return Ok(Field::Sensor),
+                    REMOVES => return Ok(Field::Removes),
                     TRANSLATION => return Ok(Field::Translation),
                     ROTATION => return Ok(Field::Rotation),
                     SCALE => return Ok(Field::Scale),
@@ -163,6 +172,7 @@ impl<'de> Deserialize<'de> for RawSurroundings {
                         }
                         Field::Name => raw.name = Some(map.next_value()?),
                         Field::Sensor => raw.sensor = map.next_value()?,
+                        Field::Removes => raw.removes = map.next_value()?,
                         Field::Translation => raw.translation = Some(map.next_value()?),
                         Field::Rotation => raw.rotation = Some(map.next_value()?),
                         Field::Scale => raw.scale = Some(map.next_value()?),

@@ -1,0 +1,284 @@
+//! Flow: spheres that come into a world and go out of it by its scene.
+//!
+//! Each exchange is a change of the world ([`Change`]): it goes on as a new one that is built
+//! in that state. So both engines take it as they are, and it costs as much as to start a
+//! world, whatever is exchanged: all that go at one time, or in one step, go at once.
+
+#[cfg(feature = "files")]
+use serde::{Deserialize, Serialize};
+
+use super::change::{Apply, Change, ChangeError};
+use super::handles::Handles;
+#[cfg(feature = "files")]
+use super::snapshot::Misfit;
+use super::{EngineError, Event, EventDriven, PartTotals, Partner, Stepped, World};
+use crate::bodies::Bodies;
+use crate::real::Real;
+use crate::scene::{Inlet, Scene};
+use crate::vec3::Vec3;
+
+/// Spheres that came into a world, or went out of it, as they were then.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[non_exhaustive]
+pub struct Exchanged {
+    /// How many.
+    pub spheres: u64,
+    /// Their mass together.
+    pub mass: f64,
+    /// Their momentum, mass × length per time.
+    pub momentum: [f64; 3],
+    /// Their energy of motion and in the field, mass × length² per time².
+    pub energy: f64,
+}
+
+impl Exchanged {
+    fn add<T: Real>(&mut self, bodies: &Bodies<T>, body: usize, gravity: Vec3<f64>) {
+        self.spheres += 1;
+        self.mass += bodies.mass.of(body).to_f64();
+        let momentum = bodies.momentum_of(body).to_array();
+        for (sum, component) in self.momentum.iter_mut().zip(momentum) {
+            *sum += component;
+        }
+        self.energy += bodies.energy_of(body, gravity).into_iter().sum::<f64>();
+    }
+}
+
+/// What came into a world and went out of it by its scene.
+///
+/// ```
+/// use carom::engine::World;
+/// use carom::{Execution, Plane, Scene, Sphere};
+///
+/// let ball = Sphere::new([0.0, 0.0, 2.0]).radius(0.5).velocity([0.0, 0.0, -1.0]);
+/// let drain = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+/// let scene = Scene::<f64>::builder().removing_surroundings("drain", drain).sphere(ball);
+/// let mut world = World::new(scene.build()?, Execution::default())?;
+/// world.advance(2.0)?;
+/// assert!(world.bodies().is_empty());
+/// // It has bounced off before it is gone.
+/// assert_eq!(world.exchange().removed.momentum, [0.0, 0.0, 1.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[non_exhaustive]
+pub struct Exchange {
+    /// What inlets brought in.
+    pub came: Exchanged,
+    /// How often one found no room, and had to wait.
+    pub waits: u64,
+    /// What parts took out.
+    pub removed: Exchanged,
+    /// The sum of mass × time of all spheres up to the last exchange, and when that was.
+    pub mass_time: (f64, f64),
+}
+
+/// What comes and goes by a scene.
+#[derive(Clone, Debug)]
+pub(super) struct Flow {
+    /// Which parts take spheres out.
+    removes: Vec<bool>,
+    inlets: Vec<Inlet>,
+    pub state: FlowState,
+}
+
+/// What has to be remembered.
+#[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+pub(super) struct FlowState {
+    exchange: Exchange,
+    /// Of each inlet.
+    sources: Vec<Source>,
+    /// Spheres that each part took out.
+    removed_by: Vec<u64>,
+    /// Bodies that are to go, each with the part that takes it.
+    gone: Vec<(u32, u32)>,
+}
+
+/// How far an inlet has come.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+struct Source {
+    /// How often a sphere was due.
+    due: u64,
+    /// How many have come.
+    came: u64,
+    /// How often a place was tried.
+    attempts: u64,
+}
+
+impl Flow {
+    /// Of a scene where spheres come or go; otherwise `None`.
+    pub fn of<T: Real>(scene: &Scene<T>) -> Option<Self> {
+        if !scene.removes.contains(&true) && scene.inlets.is_empty() {
+            return None;
+        }
+        let state = FlowState {
+            removed_by: vec![0; scene.removes.len()],
+            sources: vec![Source::default(); scene.inlets.len()],
+            ..FlowState::default()
+        };
+        Some(Self { removes: scene.removes.clone(), inlets: scene.inlets.clone(), state })
+    }
+
+    /// Goes on from what another one of the same scene remembered.
+    #[cfg(feature = "files")]
+    pub fn restore(&mut self, state: &FlowState) -> Result<(), Misfit> {
+        let own = &self.state;
+        if state.removed_by.len() != own.removed_by.len()
+            || state.sources.len() != own.sources.len()
+        {
+            return Err(Misfit("spheres that come and go"));
+        }
+        self.state.clone_from(state);
+        Ok(())
+    }
+
+    /// Whether any part takes spheres out.
+    pub fn has_drains(&self) -> bool {
+        self.removes.contains(&true)
+    }
+
+    /// Takes note of a collision, and gives it as the listener has it: bodies by the numbers of
+    /// their handles.
+    pub fn hear<T: Real>(&mut self, event: &Event<T>, handles: &Handles) -> Event<T> {
+        if let Partner::Surroundings(part) = event.partner
+            && self.removes.get(part as usize) == Some(&true)
+            && !self.state.gone.iter().any(|(body, _)| *body == event.a)
+        {
+            self.state.gone.push((event.a, part));
+        }
+        let mut named = *event;
+        named.a = handles.number_of(event.a);
+        if let Partner::Body { index, .. } = &mut named.partner {
+            *index = handles.number_of(*index);
+        }
+        named
+    }
+
+    /// Whether something is to be exchanged at a time.
+    pub fn is_due(&self, time: f64) -> bool {
+        !self.state.gone.is_empty() || self.next() <= time
+    }
+
+    /// When something comes next.
+    pub fn next(&self) -> f64 {
+        let sources = self.inlets.iter().zip(&self.state.sources);
+        let ahead = sources.filter(|(inlet, source)| source.came < inlet.most());
+        ahead.map(|(inlet, source)| inlet.time(source.due)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Exchanges what is due at a time. What cannot be stays to be done.
+    fn exchange<T: Real>(
+        &mut self,
+        apply: Apply<T>,
+        mut change: Change<'_, T>,
+        time: f64,
+    ) -> Result<(), EngineError> {
+        let mut state = self.state.clone();
+        let gravity = change.gravity().cast::<f64>();
+        let bodies = change.bodies();
+        let mass: f64 = (0..bodies.len()).map(|body| bodies.mass.of(body).to_f64()).sum();
+        let (sum, since) = state.exchange.mass_time;
+        state.exchange.mass_time = (sum + mass * (time - since), time);
+        for (body, part) in core::mem::take(&mut state.gone) {
+            state.exchange.removed.add(change.bodies(), body as usize, gravity);
+            state.removed_by[part as usize] += 1;
+            change.remove(body as usize);
+        }
+        if self.next() <= time {
+            self.bring_in(&mut change, &mut state, time);
+        }
+        apply(change).map_err(|error| match error {
+            ChangeError::Engine(error) => error,
+            other => EngineError::Exchange { time, reason: other.to_string() },
+        })?;
+        self.state = state;
+        Ok(())
+    }
+
+    /// Brings in what is due at a time, as far as there is room.
+    fn bring_in<T: Real>(&self, change: &mut Change<'_, T>, state: &mut FlowState, time: f64) {
+        let room = change.room();
+        let gravity = change.gravity().cast::<f64>();
+        for (index, (inlet, source)) in self.inlets.iter().zip(&mut state.sources).enumerate() {
+            source.due = inlet.due(source.due, time);
+            while source.came < source.due.min(inlet.most()) {
+                let sphere = inlet.sphere::<T>(index, source.came, source.attempts);
+                source.attempts += 1;
+                if !room.takes(&sphere, change.bodies(), |body| !change.is_removed(body)) {
+                    state.exchange.waits += 1;
+                    break;
+                }
+                source.came += 1;
+                state.exchange.came.add(&sphere, 0, gravity);
+                change.add(&sphere);
+            }
+        }
+    }
+
+    /// Fills in what parts took out.
+    fn count(&self, parts: &mut [PartTotals]) {
+        for part in parts {
+            part.removed = self.state.removed_by.get(part.part as usize).copied().unwrap_or(0);
+        }
+    }
+}
+
+/// Exchanges what is due in a world, whose change it is given.
+macro_rules! exchange {
+    ($world:expr) => {{
+        let time = $world.time();
+        match $world.base_mut().flow.take() {
+            None => Ok(()),
+            Some(mut flow) => {
+                let done = flow.exchange($world.apply, $world.change(), time);
+                $world.base_mut().flow = Some(flow);
+                done
+            }
+        }
+    }};
+}
+
+impl<T: Real> EventDriven<T> {
+    pub(super) fn exchange_due(&mut self) -> Result<(), EngineError> {
+        exchange!(self)
+    }
+}
+
+impl<T: Real> Stepped<T> {
+    pub(super) fn exchange_due(&mut self) -> Result<(), EngineError> {
+        exchange!(self)
+    }
+}
+
+impl<T: Real> World<T> {
+    /// Whether spheres come or go by its scene.
+    #[must_use]
+    pub fn has_flow(&self) -> bool {
+        self.base().flow.is_some()
+    }
+
+    /// The numbers of the [handles](crate::engine::BodyHandle) of its bodies.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<u64> {
+        let handles = &self.base().handles;
+        let numbers = (0..handles.count()).filter_map(|index| handles.of(index));
+        numbers.map(|handle| handle.number()).collect()
+    }
+
+    /// What came into the world and went out of it by its scene since the start.
+    #[must_use]
+    pub fn exchange(&self) -> Exchange {
+        self.base().flow.as_ref().map_or_else(Exchange::default, |flow| flow.state.exchange)
+    }
+}
+
+/// What parts have done, with what they took out.
+pub(super) fn counted(mut parts: Vec<PartTotals>, flow: Option<&Flow>) -> Vec<PartTotals> {
+    if let Some(flow) = flow {
+        flow.count(&mut parts);
+    }
+    parts
+}
