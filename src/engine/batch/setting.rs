@@ -59,6 +59,8 @@ impl<T: Real> Setting<T> {
             && scene.stepped.integrator == first.stepped.integrator
             && scene.stepped.orientation == OrientationUpdate::WhenAsked
             && scene.surroundings == first.surroundings
+            && scene.removes == first.removes
+            && scene.inlets.is_empty()
             && has_field(scene) == plan.has_field
             && summation(scene) == plan.summation
             && Frame::of(scene).is_none()
@@ -72,6 +74,10 @@ impl Plan {
         let contacts = self.bodies * self.features + if self.has_pairs { pairs } else { 0 };
         if self.engine == EngineKind::EventDriven {
             Some("collisions have times of their own")
+        } else if self.inlets + self.drains > 0 {
+            Some("spheres come and go")
+        } else if self.sensors > 0 {
+            Some("sensors look at each scene")
         } else if self.impact == Impact::SubStep && (self.has_pairs || self.features > 0) {
             Some("impacts have times inside a step")
         } else if self.is_periodic {

@@ -59,7 +59,7 @@ impl<B: DrawingBackend> Canvas<B> {
         let places: Vec<_> = places.iter().map(|&place| self.pixel(place)).collect();
         let [on, off] = [on, off].map(|length| self.whole(length));
         let stroke = self.stroke(width, color);
-        self.draw(&DashedPathElement::new(places.into_iter(), on, off, stroke));
+        self.draw(&DashedPathElement::new(places, on, off, stroke));
     }
 
     pub fn polygon(&mut self, corners: &[Place], color: Color) {
