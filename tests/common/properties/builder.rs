@@ -165,8 +165,9 @@ pub(super) fn moves_a_little<T: Compiled>(scene: Scene<T>) -> Outcome {
     let execution = Execution::new().threads(1);
     let bodies = scene.bodies.len();
     let start = scene.clone();
+    let has_flow = !scene.inlets.is_empty() || scene.removes.contains(&true);
     let checked = |left: &Bodies<T>| {
-        assert_eq!(left.len(), bodies);
+        assert!(has_flow || left.len() == bodies);
         if not_finite(left).is_none() {
             start.with_bodies(left.clone()).unwrap_or_else(|error| panic!("{error}"));
         }
