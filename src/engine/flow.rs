@@ -226,30 +226,25 @@ impl Flow {
     }
 }
 
-/// Exchanges what is due in a world, whose change it is given.
-macro_rules! exchange {
-    ($world:expr) => {{
-        let time = $world.time();
-        match $world.base_mut().flow.take() {
-            None => Ok(()),
-            Some(mut flow) => {
-                let done = flow.exchange($world.apply, $world.change(), time);
-                $world.base_mut().flow = Some(flow);
-                done
-            }
-        }
-    }};
-}
-
 impl<T: Real> EventDriven<T> {
+    /// Exchanges what is due now.
     pub(super) fn exchange_due(&mut self) -> Result<(), EngineError> {
-        exchange!(self)
+        let time = self.time();
+        let Some(mut flow) = self.base_mut().flow.take() else { return Ok(()) };
+        let done = flow.exchange(self.apply, self.change(), time);
+        self.base_mut().flow = Some(flow);
+        done
     }
 }
 
 impl<T: Real> Stepped<T> {
+    /// Exchanges what is due now.
     pub(super) fn exchange_due(&mut self) -> Result<(), EngineError> {
-        exchange!(self)
+        let time = self.time();
+        let Some(mut flow) = self.base_mut().flow.take() else { return Ok(()) };
+        let done = flow.exchange(self.apply, self.change(), time);
+        self.base_mut().flow = Some(flow);
+        done
     }
 }
 
