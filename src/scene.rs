@@ -39,6 +39,8 @@ mod compiled;
 mod description;
 #[cfg(feature = "files")]
 mod dilated;
+#[cfg(feature = "files")]
+mod entries;
 mod error;
 mod figures;
 #[cfg(feature = "files")]
@@ -65,8 +67,6 @@ mod reading;
 mod settings;
 #[cfg(feature = "files")]
 mod source;
-#[cfg(feature = "files")]
-mod sources;
 mod spheres;
 #[cfg(feature = "files")]
 mod state_file;

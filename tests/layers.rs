@@ -109,7 +109,7 @@ const SCENE: [&str; 31] = [
     "reading",
     "state_file",
     "fixed",
-    "sources",
+    "entries",
     "file",
     "outputs",
     "source",

@@ -366,7 +366,7 @@ fn sensors_that_cannot_be() {
         let built = SceneFile::parse("s.toml", &text).and_then(|file| file.build::<f64>());
         built.map_or_else(|error| error.to_string(), |_| "it can".to_owned())
     };
-    let sides = "has no two sides to be told apart: a sensor is a plane, a disc, an annulus, a \
+    let sides = "has no two distinct sides: a sensor is a plane, a disc, an annulus, a \
                  triangle, or what is closed: a box, a sphere, a capsule, a cylinder, a cone, a torus \
                  or a closed profile";
     let tube =

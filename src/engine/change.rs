@@ -4,6 +4,8 @@ use core::ops::Range;
 
 use super::flow::Flow;
 use super::handles::Handles;
+#[cfg(feature = "files")]
+use super::snapshot::{Misfit, Snapshot};
 use super::{BodyHandle, Compiled, EngineError, EventDriven, Execution, Stepped, World};
 use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
@@ -63,6 +65,25 @@ impl<T: Real> Base<T> {
 
     pub fn periodic(&self) -> Option<PeriodicBox<T>> {
         self.scene.periodic
+    }
+
+    /// Adds what it has to remember to a snapshot.
+    #[cfg(feature = "files")]
+    pub fn save(&self, saved: &mut Snapshot) {
+        if let Some(later) = &mut saved.later {
+            later.handles.clone_from(&self.handles);
+        }
+        saved.flow = self.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
+    }
+
+    /// Goes on from what a snapshot remembers.
+    #[cfg(feature = "files")]
+    pub fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        match (&mut self.flow, &saved.flow) {
+            (None, None) => Ok(()),
+            (Some(flow), Some(state)) => flow.restore(state),
+            _ => Err(Misfit("spheres that come and go")),
+        }
     }
 
     /// The bytes that it holds.

@@ -289,27 +289,25 @@ impl<T: Real> EventDriven<T> {
         stretch: Stretch,
         mut on_event: Listener<'_, T>,
     ) -> Result<bool, EngineError> {
-        let last = self.collisions().total().saturating_add(stretch.collisions);
+        let mut last = None;
         loop {
-            let now = self.time();
-            let made = self.collisions().total();
             let Self { engine, base: Base { flow, handles, .. }, .. } = self;
             let Some(flow) = flow else {
                 return engine.advance_to(time, stretch, on_event);
             };
-            if flow.is_due(now) {
+            if flow.is_due(engine.time()) {
                 self.exchange_due()?;
                 continue;
             }
+            let made = engine.totals().collisions.total();
+            let last = *last.get_or_insert(made.saturating_add(stretch.collisions));
             let end = time.min(flow.next());
             let stretch = Stretch { collisions: last.saturating_sub(made), ..stretch };
-            let mut listener = |event: &Event<T>| {
-                let event = flow.hear(event, handles);
-                if let Some(on_event) = &mut on_event {
-                    on_event(&event);
-                }
-            };
-            let is_there = engine.advance_to(end, stretch, Some(&mut listener))?;
+            let is_there = engine.advance_to(
+                end,
+                stretch,
+                Some(&mut flow.listener(handles, &mut on_event)),
+            )?;
             if !flow.is_due(engine.time()) {
                 return Ok(is_there);
             }
@@ -501,20 +499,13 @@ impl<T: Real> EventDriven<T> {
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
         let mut saved = self.engine.save();
-        if let Some(later) = &mut saved.later {
-            later.handles.clone_from(&self.base.handles);
-        }
-        saved.flow = self.base.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
+        self.base.save(&mut saved);
         saved
     }
 
     #[cfg(feature = "files")]
     pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
-        match (&mut self.base.flow, &saved.flow) {
-            (None, None) => {}
-            (Some(flow), Some(state)) => flow.restore(state)?,
-            _ => return Err(Misfit("spheres that come and go")),
-        }
+        self.base.restore(saved)?;
         self.engine.restore(saved)
     }
 

@@ -11,7 +11,7 @@ use super::change::{Apply, Change, ChangeError};
 use super::handles::Handles;
 #[cfg(feature = "files")]
 use super::snapshot::Misfit;
-use super::{EngineError, Event, EventDriven, PartTotals, Partner, Stepped, World};
+use super::{EngineError, Event, EventDriven, Listener, PartTotals, Partner, Stepped, World};
 use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::scene::{Inlet, Scene};
@@ -142,7 +142,7 @@ impl Flow {
 
     /// Takes note of a collision, and gives it as the listener has it: bodies by the numbers of
     /// their handles.
-    pub fn hear<T: Real>(&mut self, event: &Event<T>, handles: &Handles) -> Event<T> {
+    fn hear<T: Real>(&mut self, event: &Event<T>, handles: &Handles) -> Event<T> {
         if let Partner::Surroundings(part) = event.partner
             && self.removes.get(part as usize) == Some(&true)
             && !self.state.gone.iter().any(|(body, _)| *body == event.a)
@@ -155,6 +155,20 @@ impl Flow {
             *index = handles.number_of(*index);
         }
         named
+    }
+
+    /// What an engine tells of collisions, for it and for a listener.
+    pub fn listener<'a, T: Real>(
+        &'a mut self,
+        handles: &'a Handles,
+        on_event: &'a mut Listener<'_, T>,
+    ) -> impl FnMut(&Event<T>) {
+        move |event| {
+            let event = self.hear(event, handles);
+            if let Some(on_event) = on_event {
+                on_event(&event);
+            }
+        }
     }
 
     /// Whether something is to be exchanged at a time.

@@ -1,7 +1,7 @@
 //! Sensed: an engine whose bodies are watched by sensors.
 //!
 //! A sensor looks at free flights from outside of the engine: those that collisions end, as
-//! the listener is told of them, or the ways of whole steps. So it changes no bit of a run,
+//! the listener hears of them, or the ways of whole steps. So it changes no bit of a run,
 //! and a scene without sensors has nothing of this. Passages are found in double precision
 //! whatever the engine's is. Events are the same in every order, on all lanes and threads:
 //! so are counts.
@@ -22,7 +22,7 @@ use super::{EngineError, Event, Listener, PartTotals, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::contact::FreeFlight;
 use crate::real::Real;
-use crate::scene::Scene;
+use crate::scene::{EngineKind, Scene};
 use crate::surroundings::{Gate, Passages};
 use crate::vec3::Vec3;
 
@@ -237,7 +237,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Sensed<T, E> {
 
     fn parts(&self) -> Vec<PartTotals> {
         let mut parts = self.engine.parts();
-        let is_stepped = self.plan().engine == crate::scene::EngineKind::Stepped;
+        let is_stepped = self.plan().engine == EngineKind::Stepped;
         self.watch.count(&mut parts, (!is_stepped).then(|| self.time()));
         parts
     }

@@ -263,12 +263,7 @@ impl<T: Real> Stepped<T> {
             // To the first step at whose end something comes, or may have gone.
             let ahead = ((flow.next() - now) / dt).ceil().max(1.0) as u64;
             let steps = if flow.has_drains() { 1 } else { ahead.min(left) };
-            let mut listener = |event: &Event<T>| {
-                let event = flow.hear(event, handles);
-                if let Some(on_event) = &mut on_event {
-                    on_event(&event);
-                }
-            };
+            let mut listener = flow.listener(handles, &mut on_event);
             engine.take_steps(steps, Some(&mut listener));
         }
     }
@@ -470,20 +465,13 @@ impl<T: Real> Stepped<T> {
     #[cfg(feature = "files")]
     pub(super) fn save(&self) -> Snapshot {
         let mut saved = self.engine.save();
-        if let Some(later) = &mut saved.later {
-            later.handles.clone_from(&self.base.handles);
-        }
-        saved.flow = self.base.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
+        self.base.save(&mut saved);
         saved
     }
 
     #[cfg(feature = "files")]
     pub(super) fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
-        match (&mut self.base.flow, &saved.flow) {
-            (None, None) => {}
-            (Some(flow), Some(state)) => flow.restore(state)?,
-            _ => return Err(Misfit("spheres that come and go")),
-        }
+        self.base.restore(saved)?;
         self.engine.restore(saved)
     }
 

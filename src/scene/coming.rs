@@ -11,7 +11,7 @@ use crate::bodies::Bodies;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// What the random numbers of inlets are told by from those of groups of spheres.
+/// What sets the random numbers of inlets apart from those of groups of spheres.
 const BEYOND_GROUPS: u64 = 1 << 40;
 
 impl Inlet {

@@ -11,20 +11,19 @@ use super::check;
 use super::checked::Scene;
 use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
+use super::entries;
 use super::error::{Problem, SceneError};
 use super::fixed;
 use super::origin::{Origin, set_option};
 use super::pieces;
 use super::random::Seed;
-use super::raw::{Number, RawPeriodic, RawScene, RawSpheres, Vector, Whole};
+use super::raw::{RawPeriodic, RawScene, RawSpheres, Vector, Whole, number};
 use super::reading;
 use super::settings::{EngineKind, Precision, SteppedSettings};
-use super::sources;
-use super::spheres::{Arrangement, Make, Sphere, Spheres, Spread};
+use super::spheres::{Arrangement, Spheres, Spread};
 use super::state_file::StateFile;
 use crate::real::Real;
 use crate::space::PeriodicBox;
-use crate::surroundings::{Mistake, NO_VECTOR};
 use crate::vec3::Vec3;
 
 /// A scene file, read but not yet built: the precision is still to choose.
@@ -297,8 +296,8 @@ impl SceneFile {
             None => Periodicity::Open,
             Some(RawPeriodic::Cube) => Periodicity::Cube,
             Some(RawPeriodic::Box(bounds)) => {
-                let lower = required(&origin, "periodic", "lower", bounds.lower)?;
-                let upper = required(&origin, "periodic", "upper", bounds.upper)?;
+                let lower = entries::required(&origin, "periodic", "lower", bounds.lower)?;
+                let upper = entries::required(&origin, "periodic", "upper", bounds.upper)?;
                 Periodicity::Box(GivenBox::exact(PeriodicBox::new(lower, upper)))
             }
         };
@@ -310,13 +309,13 @@ impl SceneFile {
         }
         for (index, raw) in self.raw.spheres.iter().enumerate() {
             let entry = match &raw.file {
-                None => spheres(&origin, index, raw)?,
+                None => entries::spheres(&origin, index, raw)?,
                 Some(file) => self.state(&origin, index, raw, file)?,
             };
             asked.entries.push(entry);
         }
         for (index, raw) in self.raw.inlet.iter().enumerate() {
-            asked.inlets.push(sources::inlet(&origin, index, raw)?);
+            asked.inlets.push(entries::inlet(&origin, index, raw)?);
         }
         Ok(asked)
     }
@@ -371,7 +370,9 @@ impl SceneFile {
             origin.error(format!("{entry}.{key}"), Problem::conflict(other, reason))
         };
         let given = ("position", raw.position.is_some());
-        if let Some((key, _)) = of_many(raw).into_iter().chain([given]).find(|(_, given)| *given) {
+        if let Some((key, _)) =
+            entries::of_many(raw).into_iter().chain([given]).find(|(_, given)| *given)
+        {
             return Err(conflict(
                 key,
                 "file",
@@ -404,7 +405,7 @@ impl SceneFile {
         let mut spheres = Spheres {
             temperature: number(raw.temperature).unwrap_or(0.0),
             spin_temperature: number(raw.spin_temperature).unwrap_or(0.0),
-            make: make(raw),
+            make: entries::make(raw),
             ..Spheres::new(1, Arrangement::Random)
         };
         let described = &mut spheres.make;
@@ -429,92 +430,6 @@ impl SceneFile {
         }
         origin
     }
-}
-
-pub(super) fn number(value: Option<Number>) -> Option<f64> {
-    value.map(|Number(value)| value)
-}
-
-/// The value of a key that has to be there.
-fn required(
-    origin: &Origin,
-    entry: &str,
-    key: &'static str,
-    value: Option<Vector>,
-) -> Result<[f64; 3], SceneError> {
-    value
-        .map(|Vector(vector)| vector)
-        .ok_or_else(|| origin.error_in(entry, Mistake::missing(key, NO_VECTOR)))
-}
-
-/// One entry of spheres, with the keys of one or of many.
-fn spheres<T: Real>(
-    origin: &Origin,
-    index: usize,
-    raw: &RawSpheres,
-) -> Result<Entry<T>, SceneError> {
-    let entry = format!("spheres[{index}]");
-    let make = make(raw);
-    if let Some(Vector(position)) = raw.position {
-        let mut given = of_many(raw).into_iter().chain([
-            ("temperature", raw.temperature.is_some()),
-            ("spin_temperature", raw.spin_temperature.is_some()),
-        ]);
-        if let Some((key, _)) = given.find(|(_, given)| *given) {
-            let reason = "an entry is one sphere with a position, or a count of them";
-            let problem = Problem::conflict("position", reason);
-            return Err(origin.error(format!("{entry}.{key}"), problem));
-        }
-        return Ok(Entry::One(Sphere { position, make }));
-    }
-    let Some(Whole(count)) = raw.count else {
-        let wanted = "an entry is one sphere with a position, a count of them, or a file";
-        return Err(origin.error(format!("{entry}.position"), Problem::missing(wanted)));
-    };
-    let Some(arrangement) = raw.arrangement else {
-        let wanted = "it is \"fcc\", \"cubic\" or \"random\"";
-        return Err(origin.error(format!("{entry}.arrangement"), Problem::missing(wanted)));
-    };
-    let bounds = match (raw.lower, raw.upper) {
-        (None, None) => None,
-        (lower, upper) => Some([
-            required(origin, &entry, "lower", lower)?,
-            required(origin, &entry, "upper", upper)?,
-        ]),
-    };
-    Ok(Entry::Many(Spheres {
-        count,
-        arrangement,
-        bounds,
-        number_density: number(raw.number_density),
-        temperature: number(raw.temperature).unwrap_or(0.0),
-        spin_temperature: number(raw.spin_temperature).unwrap_or(0.0),
-        seed: None,
-        make,
-    }))
-}
-
-/// What spheres are and how they start, apart from their places.
-fn make(raw: &RawSpheres) -> Make {
-    Make {
-        radius: raw.radius,
-        mass: raw.mass,
-        density: raw.density,
-        inertia_factor: number(raw.inertia_factor).unwrap_or(0.4),
-        velocity: raw.velocity.map_or([0.0; 3], |Vector(velocity)| velocity),
-        spin: raw.spin.map_or([0.0; 3], |Vector(spin)| spin),
-    }
-}
-
-/// The keys of how many spheres there are and where, and whether they are given.
-fn of_many(raw: &RawSpheres) -> [(&'static str, bool); 5] {
-    [
-        ("count", raw.count.is_some()),
-        ("arrangement", raw.arrangement.is_some()),
-        ("lower", raw.lower.is_some()),
-        ("upper", raw.upper.is_some()),
-        ("number_density", raw.number_density.is_some()),
-    ]
 }
 
 /// All bytes of a file.

@@ -12,7 +12,7 @@ pub(super) enum Opening {
     Disc([f64; 3], [f64; 3], f64),
 }
 
-/// A source of spheres: one comes every so much time, if there is room where it is to be.
+/// A source of spheres: one comes after each interval of time, if there is room where it is to be.
 ///
 /// One that finds no room waits, and is tried again whenever the next one is due, in another
 /// place of the inlet; those that follow wait behind it.
@@ -137,7 +137,7 @@ impl Inlet {
         self.from + self.every.unwrap_or(f64::INFINITY) * number as f64
     }
 
-    /// How many are due up to a time, that included, if it was so many before.
+    /// How many are due up to a time, that included, if it was `before` until then.
     pub(crate) fn due(&self, before: u64, time: f64) -> u64 {
         let passed = ((time - self.from) / self.every.unwrap_or(f64::INFINITY)).floor();
         let mut due = before.max(passed as u64);

@@ -2,8 +2,8 @@
 //! and from when on it is measured.
 
 use super::error::{Problem, SceneError};
-use super::file::{SceneFile, number};
-use super::raw::{Number, RawAnalyse, RawSeries, RawSnapshot, RawWritten, Whole};
+use super::file::SceneFile;
+use super::raw::{Number, RawAnalyse, RawSeries, RawSnapshot, RawWritten, Whole, number};
 use super::settings::{AnalysisKind, AnalysisSettings, Written};
 use super::spheres::Spread;
 

@@ -176,6 +176,11 @@ pub(super) struct RawInlet {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Number(pub(super) f64);
 
+/// Its value, if it is given.
+pub(super) fn number(value: Option<Number>) -> Option<f64> {
+    value.map(|Number(value)| value)
+}
+
 /// A whole number from 0 up.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Whole(pub(super) u64);

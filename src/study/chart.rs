@@ -209,7 +209,7 @@ impl Picture {
     }
 }
 
-/// The size in pixels of a file that has so many for each one of a picture.
+/// The size in pixels of a file that has `pixels` for each one of a picture.
 fn fine((width, height): (f64, f64), pixels: f64) -> (u32, u32) {
     ((width * pixels).ceil() as u32, (height * pixels).ceil() as u32)
 }

@@ -75,7 +75,7 @@ impl<T: Real> Solid<T> for Sensor<T> {
             return Ok(());
         }
         let wanted = format!(
-            "a {} has no two sides to be told apart: a sensor is a plane, a disc, an annulus, a \
+            "a {} has no two distinct sides: a sensor is a plane, a disc, an annulus, a \
              triangle, or what is closed: a box, a sphere, a capsule, a cylinder, a cone, a torus or \
              a closed profile",
             self.shape.name()

@@ -107,7 +107,7 @@ pub(crate) trait Solid<T: Real>: Clone {
         false
     }
 
-    /// Its surface by its sides, if it has two that can be told apart.
+    /// Its surface by its sides, if it has two distinct ones.
     fn gate(&self) -> Option<Gate<T>> {
         None
     }

@@ -145,7 +145,7 @@ impl Sweep {
 const MOST_KEPT: usize = 20_000_000;
 
 impl Sweep {
-    /// Whether the errors of each of so many bodies are kept.
+    /// Whether the errors of each body are kept, of this number of them.
     pub(super) fn keeps_bodies(&self, bodies: usize) -> bool {
         let moments = self.methods.len() * self.times.len();
         bodies.saturating_mul(moments) <= MOST_KEPT
