@@ -32,7 +32,7 @@ pub use compiled::Compiled;
 pub use event::{Event, Listener, Partner};
 pub use event_driven::EventDriven;
 pub use flow::{Exchange, Exchanged};
-pub use handles::BodyHandle;
+pub use handles::{BodyHandle, PartHandle};
 pub use parts::PartTotals;
 pub use plan::{Plan, Turning};
 #[cfg(feature = "files")]

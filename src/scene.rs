@@ -74,6 +74,7 @@ mod state_file;
 pub use builder::SceneBuilder;
 #[cfg(feature = "files")]
 pub use builtin::{BuiltinScene, DEFAULT_SCENE, builtin_scenes};
+pub(crate) use check_bodies::Placed;
 pub use checked::Scene;
 pub(crate) use coming::Room;
 pub use compiled::Buildable;

@@ -1,6 +1,8 @@
 //! A world that is changed goes on as a new world that is built in that state.
 
 mod common;
+#[path = "changes/parts.rs"]
+mod parts;
 
 use carom::bodies::Bodies;
 use carom::engine::{Change, Compiled, Event, Execution, Partner, Snapshot, World};

@@ -1,17 +1,22 @@
 //! Change: what a program does to a world between two stretches of time.
 
+mod parts;
+
 use core::ops::Range;
 
 use super::flow::Flow;
-use super::handles::Handles;
+use super::handles::{Handles, Names};
 #[cfg(feature = "files")]
-use super::snapshot::{Misfit, Snapshot};
+use super::snapshot::{Misfit, SavedParts, Snapshot};
 use super::{BodyHandle, Compiled, EngineError, EventDriven, Execution, Stepped, World};
 use crate::bodies::{Bodies, Columns3};
 use crate::real::Real;
-use crate::scene::{Room, Scene, SceneError};
+use crate::scene::{Placed, Room, Scene, SceneError};
 use crate::space::{PeriodicBox, Space, SphereTree};
 use crate::vec3::Vec3;
+
+pub(super) use parts::KeptParts;
+use parts::{ChangedParts, NewParts};
 
 /// Why a world cannot be changed so. It is then as it was.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +29,14 @@ pub enum ChangeError {
         body: usize,
         /// How many bodies there are.
         bodies: usize,
+    },
+    /// There is no such part of the surroundings.
+    #[error("there is no part {part} of the surroundings: the world has {parts}, counted from 0")]
+    Part {
+        /// The index that was given.
+        part: usize,
+        /// How many parts there are.
+        parts: usize,
     },
     /// There is no such scene in a batch.
     #[error("there is no scene {scene}: the batch has {scenes}, counted from 0")]
@@ -48,19 +61,36 @@ pub(super) struct Base<T: Real> {
     scene: Scene<T>,
     pub execution: Execution,
     pub handles: Handles,
+    /// Of the parts of the surroundings, once any was added or removed.
+    pub part_handles: Option<Handles>,
     /// What comes and goes by the scene, if anything does.
     pub flow: Option<Box<Flow>>,
 }
 
 impl<T: Real> Base<T> {
     pub fn new(scene: &Scene<T>, execution: Execution) -> Self {
-        Self::later(scene, execution, Handles::new(scene.bodies.len()))
+        let names = Names { bodies: Handles::new(scene.bodies.len()), parts: None };
+        Self::later(scene, execution, names)
     }
 
     /// Of a world that had others before.
-    pub fn later(scene: &Scene<T>, execution: Execution, handles: Handles) -> Self {
+    pub fn later(scene: &Scene<T>, execution: Execution, names: Names) -> Self {
         let flow = Flow::of(scene).map(Box::new);
-        Self { scene: scene.without_bodies(), execution, handles, flow }
+        let Names { bodies: handles, parts: part_handles } = names;
+        Self { scene: scene.without_bodies(), execution, handles, part_handles, flow }
+    }
+
+    /// Goes on with what another one has seen come and go, whose parts are `kept` so.
+    pub fn take_over(&mut self, before: &mut Self, kept: Option<&KeptParts>) {
+        self.flow = before.flow.take();
+        if let (Some(flow), Some(kept)) = (&mut self.flow, kept) {
+            flow.keep_parts(kept, &self.scene.removes);
+        }
+    }
+
+    /// The parts, of which nothing is changed yet.
+    fn changed_parts(&self) -> ChangedParts<T> {
+        ChangedParts::new(self.scene.surroundings.len(), self.part_handles.clone())
     }
 
     pub fn periodic(&self) -> Option<PeriodicBox<T>> {
@@ -72,6 +102,8 @@ impl<T: Real> Base<T> {
     pub fn save(&self, saved: &mut Snapshot) {
         if let Some(later) = &mut saved.later {
             later.handles.clone_from(&self.handles);
+            let saved = |handles: &Handles| SavedParts::of(&self.scene, handles);
+            later.parts = self.part_handles.as_ref().map(saved);
         }
         saved.flow = self.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
     }
@@ -79,6 +111,10 @@ impl<T: Real> Base<T> {
     /// Goes on from what a snapshot remembers.
     #[cfg(feature = "files")]
     pub fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
+        if self.flow.is_none() && self.part_handles.is_some() && saved.flow.is_some() {
+            // What took spheres out was removed since.
+            self.flow = Some(Box::new(Flow::spent(&self.scene)));
+        }
         match (&mut self.flow, &saved.flow) {
             (None, None) => Ok(()),
             (Some(flow), Some(state)) => flow.restore(state),
@@ -88,7 +124,8 @@ impl<T: Real> Base<T> {
 
     /// The bytes that it holds.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.scene.surroundings.as_slice()) + self.handles.bytes()
+        let parts = self.part_handles.as_ref().map_or(0, Handles::bytes);
+        size_of_val(self.scene.surroundings.as_slice()) + self.handles.bytes() + parts
     }
 }
 
@@ -115,15 +152,17 @@ impl<T: Real> Target<'_, T> {
 /// [`apply`](Change::apply), or none of it. Bodies are named by their indices in the scene.
 ///
 /// Bodies that are added come last, and those that are removed let the ones behind them move
-/// up: by [`BodyHandle`]s each is found again.
+/// up: by [`BodyHandle`]s each is found again. So it is with the parts of the surroundings
+/// ([`add_part`](Change::add_part), [`remove_part`](Change::remove_part)), by
+/// [`PartHandle`](crate::engine::PartHandle)s.
 ///
 /// A changed world goes on, bit by bit, as a new world that is built in that state: its
-/// bodies with what was changed, in the same scene under the gravity that it has now. Time,
-/// steps and all that is added up go on, but for the mean free path and the effort, which
-/// are those since the change.
+/// bodies with what was changed, in the same scene under the gravity and among the parts that
+/// it has now. Time, steps and all that is added up go on, but for the mean free path and the
+/// effort, which are those since the change.
 ///
-/// What is moved or grown is checked against all else; bodies that are left alone may be in
-/// each other as a step has left them.
+/// What is moved, grown or added is checked against all else; bodies that are left alone may
+/// be in each other, and in parts that were there, as a step has left them.
 ///
 /// It costs about as much as to start such a world, whatever is changed: change all that is
 /// to be changed at once.
@@ -161,6 +200,7 @@ pub struct Change<'a, T: Real> {
     /// Which are to be removed, if any.
     removed: Vec<bool>,
     handles: Handles,
+    parts: ChangedParts<T>,
     is_changed: bool,
     mistake: Option<ChangeError>,
 }
@@ -169,7 +209,18 @@ impl<'a, T: Real> Change<'a, T> {
     fn new(target: Target<'a, T>, bodies: Bodies<T>, gravity: Vec3<T>) -> Self {
         let placed = vec![false; bodies.len()];
         let (removed, handles) = (placed.clone(), target.base().handles.clone());
-        Self { target, bodies, gravity, placed, removed, handles, is_changed: false, mistake: None }
+        let parts = target.base().changed_parts();
+        Self {
+            target,
+            bodies,
+            gravity,
+            placed,
+            removed,
+            handles,
+            parts,
+            is_changed: false,
+            mistake: None,
+        }
     }
 
     /// The bodies with what is changed so far.
@@ -323,14 +374,16 @@ impl<T: Compiled> Change<'_, T> {
     /// Lets all of it take effect, and the world go on from there.
     ///
     /// # Errors
-    /// If a body does not exist, is put into another one or out of its container, if a figure
-    /// cannot be, or if no body is left: the world is then as it was before the change.
+    /// If a body or a part does not exist, if a body is put into another one or out of its
+    /// container, a part to where a body is, if a figure cannot be, or if no body is left: the
+    /// world is then as it was before the change.
     pub fn apply(self) -> Result<(), ChangeError> {
         T::apply(self)
     }
 
     pub(super) fn take_effect(self) -> Result<(), ChangeError> {
-        let Self { target, mut bodies, gravity, mut placed, removed, mut handles, .. } = self;
+        let Self { target, mut bodies, gravity, mut placed, removed, mut handles, parts, .. } =
+            self;
         if let Some(mistake) = self.mistake {
             return Err(mistake);
         }
@@ -343,11 +396,13 @@ impl<T: Compiled> Change<'_, T> {
             placed = kept.iter().map(|&body| placed[body]).collect();
             handles.keep(&kept);
         }
-        let base = Scene { gravity, ..target.base().scene.clone() };
-        let scene = base.with_placed(bodies, &placed)?;
+        let mut base = Scene { gravity, ..target.base().scene.clone() };
+        let NewParts { handles: part_handles, kept, is_added } = parts.take_effect(&mut base);
+        let scene = base.with_placed(bodies, Placed { bodies: &placed, parts: &is_added })?;
+        let names = Names { bodies: handles, parts: part_handles };
         match target {
-            Target::Stepped(world) => world.go_on(scene, handles)?,
-            Target::EventDriven(world) => world.go_on(scene, handles)?,
+            Target::Stepped(world) => world.go_on(scene, names, kept.as_ref())?,
+            Target::EventDriven(world) => world.go_on(scene, names, kept.as_ref())?,
         }
         Ok(())
     }

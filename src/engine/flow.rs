@@ -7,7 +7,7 @@
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
-use super::change::{Apply, Change, ChangeError};
+use super::change::{Apply, Change, ChangeError, KeptParts};
 use super::handles::Handles;
 #[cfg(feature = "files")]
 use super::snapshot::Misfit;
@@ -120,6 +120,29 @@ impl Flow {
             ..FlowState::default()
         };
         Some(Self { removes: scene.removes.clone(), inlets: scene.inlets.clone(), state })
+    }
+
+    /// Of a scene where nothing comes or goes any longer.
+    #[cfg(feature = "files")]
+    pub fn spent<T: Real>(scene: &Scene<T>) -> Self {
+        let removes = scene.removes.clone();
+        let state = FlowState { removed_by: vec![0; removes.len()], ..FlowState::default() };
+        Self { removes, inlets: Vec::new(), state }
+    }
+
+    /// Goes on among other parts: which of them take spheres out.
+    pub fn keep_parts(&mut self, kept: &KeptParts, removes: &[bool]) {
+        removes.clone_into(&mut self.removes);
+        let mut removed_by = vec![0; removes.len()];
+        for (part, count) in (0..).zip(&self.state.removed_by) {
+            if let Some(index) = kept.index_of(part) {
+                removed_by[index as usize] = *count;
+            }
+        }
+        self.state.removed_by = removed_by;
+        let gone = core::mem::take(&mut self.state.gone).into_iter();
+        let now = |(body, part)| Some((body, kept.index_of(part)?));
+        self.state.gone = gone.filter_map(now).collect();
     }
 
     /// Goes on from what another one of the same scene remembered.

@@ -1,4 +1,5 @@
-//! Handles: names of bodies that stay when others are added and removed.
+//! Handles: names of bodies, and of parts of the surroundings, that stay when others are
+//! added and removed.
 
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
@@ -30,8 +31,37 @@ impl BodyHandle {
     }
 }
 
-/// The handles of all bodies, by index. What is added comes last and has the next one, so
-/// that they rise.
+/// The name of a part of the surroundings of a world, which no other part of it ever has.
+///
+/// Those that a world starts with have their indices; see
+/// [`World::part_handle_of`](super::World::part_handle_of).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+pub struct PartHandle(u64);
+
+impl PartHandle {
+    /// Its number: of those that a world starts with, their indices; then in the order in
+    /// which they come.
+    ///
+    /// ```
+    /// use carom::engine::{Execution, World};
+    /// use carom::{Plane, Scene, Sphere};
+    ///
+    /// let ball = Sphere::new([0.0, 0.0, 1.0]).radius(0.5);
+    /// let floor = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+    /// let scene = Scene::<f64>::builder().surroundings(floor).sphere(ball).build()?;
+    /// let world = World::new(scene, Execution::default())?;
+    /// assert_eq!(world.part_handle_of(0).map(|handle| handle.number()), Some(0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn number(self) -> u64 {
+        self.0
+    }
+}
+
+/// The handles of all bodies, or of all parts, by index. What is added comes last and has
+/// the next one, so that they rise.
 #[derive(Clone, Debug, Default)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
 pub(super) struct Handles {
@@ -71,9 +101,19 @@ impl Handles {
         }
     }
 
-    /// Names some more bodies.
-    pub fn add(&mut self, bodies: usize) {
-        let end = self.next + bodies as u64;
+    /// The handle of a part, of those of parts.
+    pub fn of_part(&self, index: usize) -> Option<PartHandle> {
+        self.of(index).map(|handle| PartHandle(handle.0))
+    }
+
+    /// The index of a part, of those of parts.
+    pub fn index_of_part(&self, handle: PartHandle) -> Option<usize> {
+        self.index_of(BodyHandle(handle.0))
+    }
+
+    /// Names some more of them.
+    pub fn add(&mut self, count: usize) {
+        let end = self.next + count as u64;
         if let Some(listed) = &mut self.listed {
             listed.extend((self.next..end).map(BodyHandle));
         }
@@ -89,4 +129,12 @@ impl Handles {
     pub fn bytes(&self) -> usize {
         self.listed.as_ref().map_or(0, |listed| size_of_val(listed.as_slice()))
     }
+}
+
+/// Who is who in a world.
+#[derive(Clone, Debug)]
+pub(super) struct Names {
+    pub bodies: Handles,
+    /// `None` as long as no part was added or removed: they are the indices.
+    pub parts: Option<Handles>,
 }

@@ -6,6 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::account::{Effort, Totals};
+use super::change::KeptParts;
 #[cfg(feature = "files")]
 use super::handles::Handles;
 use super::interface::{Engine, EventEngine, StepEngine, Stretch};
@@ -35,6 +36,14 @@ impl Elapsed {
         let Totals { collisions, virial, impulse } = engine.totals();
         let parts = engine.parts();
         Self { time: engine.time(), steps, collisions, virial, impulse, parts }
+    }
+
+    /// The same of the parts that a change has left, under their indices now.
+    pub fn keeping(self, kept: Option<&KeptParts>) -> Self {
+        match kept {
+            Some(kept) => Self { parts: kept.totals(self.parts), ..self },
+            None => self,
+        }
     }
 
     /// An event at its time since the start of the run, which is not after `last`.
@@ -114,8 +123,12 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
     }
 
     fn parts(&self) -> Vec<PartTotals> {
-        let now = self.engine.parts();
-        now.iter().zip(&self.elapsed.parts).map(|(now, before)| now.after(before)).collect()
+        let before = &self.elapsed.parts;
+        let sum = |now: PartTotals| match before.binary_search_by_key(&now.part, |it| it.part) {
+            Ok(at) => now.after(&before[at]),
+            Err(_) => now,
+        };
+        self.engine.parts().into_iter().map(sum).collect()
     }
 
     fn bodies(&self) -> Bodies<T> {
@@ -131,6 +144,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
             start: SavedStart::of(*gravity, bodies),
             // The world knows them.
             handles: Handles::default(),
+            parts: None,
         };
         Snapshot { later: Some(Box::new(later)), ..self.engine.save() }
     }

@@ -16,10 +16,15 @@ use super::stepped::StepState;
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
 use crate::real::Real;
+use crate::scene::Scene;
 use crate::vec3::Vec3;
 
 /// The state of a world at a moment, without its scene. It is plain data for any
 /// serialiser of serde.
+///
+/// Of a world that was changed it has the bodies and the gravity, but no shapes: where parts
+/// of the surroundings were added or removed, it goes on in the scene with the parts as they
+/// are, [`World::scene`](super::World::scene).
 ///
 /// ```
 /// use carom::engine::{Snapshot, World};
@@ -57,6 +62,34 @@ pub(super) struct SavedLater {
     pub asked: Option<f64>,
     pub start: SavedStart,
     pub handles: Handles,
+    /// If parts of the surroundings were added or removed.
+    pub parts: Option<SavedParts>,
+}
+
+/// Which parts a changed world has. Their shapes are in its scene.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SavedParts {
+    pub handles: Handles,
+    fingerprint: u64,
+}
+
+impl SavedParts {
+    pub fn of<T: Real>(scene: &Scene<T>, handles: &Handles) -> Self {
+        Self { handles: handles.clone(), fingerprint: fingerprint(scene) }
+    }
+
+    /// Their names, if they are those of a scene.
+    pub fn names<T: Real>(&self, scene: &Scene<T>) -> Result<Handles, Misfit> {
+        let is_same = self.handles.count() == scene.surroundings.len()
+            && self.fingerprint == fingerprint(scene);
+        is_same.then(|| self.handles.clone()).ok_or(Misfit("parts of the surroundings"))
+    }
+}
+
+/// A hash of all shapes of a scene: numbers are written with all their digits.
+fn fingerprint<T: Real>(scene: &Scene<T>) -> u64 {
+    let text = format!("{:?} {:?}", scene.surroundings, scene.removes);
+    xxhash_rust::xxh3::xxh3_64(text.as_bytes())
 }
 
 impl Snapshot {

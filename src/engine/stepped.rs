@@ -29,9 +29,9 @@ mod snapshot;
 mod state;
 mod struck;
 
-use super::change::{Apply, Base};
+use super::change::{Apply, Base, KeptParts};
 use super::flow::counted;
-use super::handles::Handles;
+use super::handles::Names;
 use super::interface::StepEngine;
 use super::later::{Elapsed, Later};
 #[cfg(feature = "files")]
@@ -115,18 +115,23 @@ impl<T: Compiled> Stepped<T> {
         scene: Scene<T>,
         execution: Execution,
         elapsed: Elapsed,
-        handles: Handles,
+        names: Names,
     ) -> Result<Self, EngineError> {
-        let base = Base::later(&scene, execution, handles);
+        let base = Base::later(&scene, execution, names);
         let engine = Later::new(scene, elapsed, |scene| T::stepped(scene, execution))?;
         Ok(Self { engine: Box::new(engine), base, apply: T::apply })
     }
 
     /// Goes on as the scene now is.
-    pub(super) fn go_on(&mut self, scene: Scene<T>, handles: Handles) -> Result<(), EngineError> {
-        let elapsed = Elapsed::of(&*self.engine, self.engine.steps());
-        let mut later = Self::later(scene, self.base.execution, elapsed, handles)?;
-        later.base.flow = self.base.flow.take();
+    pub(super) fn go_on(
+        &mut self,
+        scene: Scene<T>,
+        names: Names,
+        kept: Option<&KeptParts>,
+    ) -> Result<(), EngineError> {
+        let elapsed = Elapsed::of(&*self.engine, self.engine.steps()).keeping(kept);
+        let mut later = Self::later(scene, self.base.execution, elapsed, names)?;
+        later.base.take_over(&mut self.base, kept);
         *self = later;
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! World: a scene in motion, by whichever engine moves it.
 
 #[cfg(feature = "files")]
-use super::handles::Handles;
+use super::handles::Names;
 #[cfg(feature = "files")]
 use super::later::Elapsed;
 #[cfg(feature = "files")]
@@ -85,13 +85,15 @@ impl<T: Compiled> World<T> {
         let mut world = match &snapshot.later {
             None => Self::new(scene, execution)?,
             Some(later) => {
-                let SavedLater { elapsed, start, handles, .. } = &**later;
+                let SavedLater { elapsed, start, handles, parts, .. } = &**later;
                 let (gravity, bodies) = start.read().map_err(misfit)?;
                 if handles.count() != bodies.len() {
                     return Err(misfit(Misfit("bodies")));
                 }
+                let parts = parts.as_ref().map(|parts| parts.names(&scene)).transpose();
+                let names = Names { bodies: handles.clone(), parts: parts.map_err(misfit)? };
                 let scene = Scene { gravity, bodies, ..scene };
-                Self::later(scene, execution, elapsed.clone(), handles.clone())?
+                Self::later(scene, execution, elapsed.clone(), names)?
             }
         };
         let restored = match &mut world {
@@ -107,14 +109,12 @@ impl<T: Compiled> World<T> {
         scene: Scene<T>,
         execution: Execution,
         elapsed: Elapsed,
-        handles: Handles,
+        names: Names,
     ) -> Result<Self, EngineError> {
         Ok(match scene.engine {
-            EngineKind::Stepped => {
-                Self::Stepped(Stepped::later(scene, execution, elapsed, handles)?)
-            }
+            EngineKind::Stepped => Self::Stepped(Stepped::later(scene, execution, elapsed, names)?),
             EngineKind::EventDriven => {
-                Self::EventDriven(EventDriven::later(scene, execution, elapsed, handles)?)
+                Self::EventDriven(EventDriven::later(scene, execution, elapsed, names)?)
             }
         })
     }

@@ -30,8 +30,17 @@ pub(super) struct Sources<'a> {
     /// The bodies of each entry, and what has put these there.
     pub(super) ranges: &'a [Range<usize>],
     pub(super) origins: &'a [Origin],
-    /// Of bodies that a world has left, whether each was placed since.
-    pub(super) placed: Option<&'a [bool]>,
+    /// Of bodies that a world has left: what was placed since.
+    pub(super) placed: Option<Placed<'a>>,
+}
+
+/// What was placed in a world since it has left its bodies where they are.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed<'a> {
+    /// Whether each body was moved, grown or added.
+    pub(crate) bodies: &'a [bool],
+    /// Whether each part was added; empty if none was.
+    pub(crate) parts: &'a [bool],
 }
 
 /// How far bodies may overlap what they touch, by where they come from.
@@ -57,7 +66,7 @@ impl<'a> Allowance<'a> {
             return origin;
         }
         let Sources { ranges, origins, placed } = self.sources;
-        if placed.is_some_and(|placed| placed[body]) {
+        if placed.is_some_and(|placed| placed.bodies[body]) {
             return Origin::Described;
         }
         origins[ranges.partition_point(|range| range.end <= body)]
@@ -66,6 +75,22 @@ impl<'a> Allowance<'a> {
     /// Whether it is where a world has left it. What an engine may leave, it goes on from.
     fn is_left(&self, body: usize) -> bool {
         matches!(self.origin(body), Origin::World(_))
+    }
+
+    /// Whether a part has come to where a world has left bodies.
+    fn is_added(&self, part: usize) -> bool {
+        let parts = self.sources.placed.map_or(&[][..], |placed| placed.parts);
+        parts.get(part).is_some_and(|is_added| *is_added)
+    }
+
+    /// Whether any has.
+    fn has_added(&self) -> bool {
+        self.sources.placed.is_some_and(|placed| placed.parts.contains(&true))
+    }
+
+    /// Whether a body and a part are to be held against each other.
+    fn is_checked(&self, part: usize, body: usize) -> bool {
+        !self.is_left(body) || self.is_added(part)
     }
 
     /// How far a body may be inside of others, length.
@@ -254,9 +279,11 @@ fn surroundings<T: Real>(
         let radius = radius.to_f64();
         tolerance(epsilon, coordinate, radius) + allowance.of(body, radius)
     };
-    let placed = (0..bodies.len()).filter(|body| !allowance.is_left(*body));
+    let has_added = allowance.has_added();
+    let placed = (0..bodies.len()).filter(|body| has_added || !allowance.is_left(*body));
+    let is_checked = |part: usize, body: usize| allowance.is_checked(part, body);
     let Misplaced { shape, body, depth } =
-        Obstacles::new(shapes).first_overlap(placed, sphere, tolerated)?;
+        Obstacles::new(shapes).first_overlap(placed, is_checked, sphere, tolerated)?;
     let (beyond, wanted) = match shapes[shape].is_container() {
         true => (
             format!("outside of its container, surroundings[{shape}]"),
@@ -282,9 +309,15 @@ fn thin<T: Real>(
     else {
         return Ok(());
     };
-    let Some(part) = shapes.iter().position(Shape::is_thin) else { return Ok(()) };
+    let thin = || (0..shapes.len()).filter(|part| shapes[*part].is_thin());
+    let (Some(first), added) = (thin().next(), thin().find(|part| allowance.is_added(*part)))
+    else {
+        return Ok(());
+    };
     let fallen = 0.5 * asked.gravity.cast::<f64>().length() * dt;
-    for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
+    for body in 0..bodies.len() {
+        let part = if allowance.is_left(body) { added } else { Some(first) };
+        let Some(part) = part else { continue };
         let way = (bodies.velocity_of(body).cast::<f64>().length() + fallen) * dt;
         let radius = bodies.radius.of(body).to_f64();
         if way > radius {
@@ -360,7 +393,9 @@ fn room<T: Real>(
 ) -> Result<(), (usize, Problem)> {
     let epsilon = T::EPSILON.to_f64();
     for Slab { parts: [part, other], normal, width, slack } in narrow_slabs(shapes, bodies) {
-        for body in (0..bodies.len()).filter(|body| !allowance.is_left(*body)) {
+        let is_checked =
+            |body: &usize| [part, other].iter().any(|part| allowance.is_checked(*part, *body));
+        for body in (0..bodies.len()).filter(is_checked) {
             let radius = bodies.radius.of(body).to_f64();
             let moves = |vector: Vec3<T>| {
                 let vector = vector.cast::<f64>();

@@ -1,6 +1,6 @@
 //! Checked: a scene without a mistake, and the way from its description.
 
-use super::check_bodies::Sources;
+use super::check_bodies::{Placed, Sources};
 use super::compiled::Buildable;
 use super::description::{Description, Entry, GivenBox, GivenShape, Periodicity};
 use super::error::SceneError;
@@ -95,12 +95,12 @@ impl<T: Buildable> Scene<T> {
         T::checked(self.description(bodies), None)
     }
 
-    /// [`with_bodies`](Scene::with_bodies) where a world has left them, but for those that
-    /// are `placed`, which are checked.
+    /// [`with_bodies`](Scene::with_bodies) where a world has left them, but for what was
+    /// `placed` since, which is checked.
     pub(crate) fn with_placed(
         &self,
         bodies: Bodies<T>,
-        placed: &[bool],
+        placed: Placed<'_>,
     ) -> Result<Self, SceneError> {
         T::checked(self.description(bodies.left_by_world()), Some(placed))
     }
@@ -150,7 +150,7 @@ impl<T: Real> Scene<T> {
     /// together.
     pub(super) fn checked(
         mut asked: Description<T>,
-        placed: Option<&[bool]>,
+        placed: Option<Placed<'_>>,
     ) -> Result<Self, SceneError> {
         check::settings(&asked)?;
         let ranges = check::entries(&asked)?;

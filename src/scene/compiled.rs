@@ -1,5 +1,6 @@
 //! Compiled: the precisions that scenes are built in.
 
+use super::check_bodies::Placed;
 use super::checked::Scene;
 use super::description::Description;
 use super::error::SceneError;
@@ -30,16 +31,16 @@ pub trait Buildable: Real + sealed::Scenes {}
 pub(super) mod sealed {
     #[cfg(feature = "files")]
     use super::SceneFile;
-    use super::{Description, Real, Scene, SceneError};
+    use super::{Description, Placed, Real, Scene, SceneError};
 
     /// What makes the scenes of a precision; not generic, so that it is compiled in this
     /// crate.
     pub trait Scenes: Real {
         /// Checks a description, places the spheres, and checks what they make together;
-        /// of ready bodies only those that are `placed`, if that is given.
+        /// of ready bodies only what was `placed`, if that is given.
         fn checked(
             asked: Description<Self>,
-            placed: Option<&[bool]>,
+            placed: Option<Placed<'_>>,
         ) -> Result<Scene<Self>, SceneError>;
 
         #[cfg(feature = "files")]
@@ -54,7 +55,7 @@ macro_rules! compile {
         impl sealed::Scenes for $real {
             fn checked(
                 asked: Description<Self>,
-                placed: Option<&[bool]>,
+                placed: Option<Placed<'_>>,
             ) -> Result<Scene<Self>, SceneError> {
                 Scene::checked(asked, placed)
             }

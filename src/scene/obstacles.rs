@@ -40,10 +40,11 @@ impl<T: Real> Obstacles<T> {
     }
 
     /// Of these spheres, in their order, that overlap something by more than a tolerance,
-    /// the first one at the first feature.
+    /// the first one at the first feature, of the parts that it is to be held against.
     pub(super) fn first_overlap(
         &self,
         bodies: impl Iterator<Item = usize> + Clone,
+        is_checked: impl Fn(usize, usize) -> bool,
         sphere: impl Fn(usize) -> (Vec3<T>, T),
         tolerance: impl Fn(FeatureRef<'_, T>, usize, Vec3<T>, T) -> f64,
     ) -> Option<Misplaced> {
@@ -54,7 +55,7 @@ impl<T: Real> Obstacles<T> {
             }
             let (center, radius) = sphere(body);
             let gap = self.gap(feature, center, radius);
-            if gap < T::ZERO {
+            if gap < T::ZERO && is_checked(self.features.shape_of(feature) as usize, body) {
                 let gap = gap.to_f64();
                 if gap < -tolerance(self.features.at(feature), body, center, radius) {
                     first = Some((feature, body, gap));
