@@ -18,6 +18,7 @@ mod sensed;
 #[cfg(feature = "files")]
 mod snapshot;
 mod stepped;
+mod survey;
 mod world;
 
 use core::fmt;
@@ -38,6 +39,7 @@ pub use plan::{Plan, Turning};
 #[cfg(feature = "files")]
 pub use snapshot::Snapshot;
 pub use stepped::Stepped;
+pub use survey::{Contact, Hit, Survey, Touched};
 pub use world::World;
 
 /// How many reals a kernel works on at once.

@@ -83,6 +83,7 @@ pub use error::{Place, Problem, SceneError};
 pub use file::SceneFile;
 pub use inlet::Inlet;
 #[cfg(feature = "files")]
+pub(crate) use obstacles::Obstacles;
 pub use outputs::AskedAnalysis;
 pub(crate) use quick::QuickCheck;
 pub use random::Random;

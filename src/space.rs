@@ -49,5 +49,6 @@ pub use near_pairs::near_pairs;
 pub use parts::FixedParts;
 pub use periodic::{OpenSpace, PeriodicBox, Space};
 pub use sphere_tree::{RayHit, SphereTree};
-pub(crate) use tree::joined;
+pub(crate) use sphere_tree::{along_boxes, unit};
 pub use tree::{Bounds, Tree};
+pub(crate) use tree::{Ray, joined};

@@ -3,6 +3,8 @@
 mod common;
 #[path = "changes/parts.rs"]
 mod parts;
+#[path = "changes/survey.rs"]
+mod survey;
 
 use carom::bodies::Bodies;
 use carom::engine::{Change, Compiled, Event, Execution, Partner, Snapshot, World};

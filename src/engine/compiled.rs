@@ -4,13 +4,15 @@ use super::frame::{Frame, Framed};
 use super::idle::Idle;
 use super::interface::{EventEngine, StepEngine};
 use super::{
-    Batch, BatchError, Change, ChangeError, EngineError, Event, Execution, batch, event_driven,
-    sensed, stepped,
+    Batch, BatchError, Change, ChangeError, Contact, EngineError, Event, Execution, Hit, Survey,
+    batch, event_driven, sensed, stepped,
 };
+use crate::bodies::Bodies;
 #[cfg(feature = "study")]
 use crate::real::DoubleDouble;
 use crate::real::Real;
 use crate::scene::{Buildable, EngineKind, Scene};
+use crate::vec3::Vec3;
 
 /// A precision that this crate has engines for.
 ///
@@ -35,8 +37,8 @@ pub trait Compiled: Buildable + sealed::Engines {}
 
 pub(super) mod sealed {
     use super::{
-        Batch, BatchError, Change, ChangeError, EngineError, Event, EventEngine, Execution, Real,
-        Scene, StepEngine,
+        Batch, BatchError, Bodies, Change, ChangeError, Contact, EngineError, Event, EventEngine,
+        Execution, Hit, Real, Scene, StepEngine, Survey, Vec3,
     };
     use crate::engine::batch::{Events, Going, Make, Pack, Setting};
 
@@ -61,6 +63,16 @@ pub(super) mod sealed {
         );
 
         fn apply(change: Change<'_, Self>) -> Result<(), ChangeError>;
+
+        fn survey(bodies: &Bodies<Self>, scene: &Scene<Self>) -> Survey<Self>;
+
+        fn contacts(survey: &Survey<Self>, gap: Self) -> Vec<Contact<Self>>;
+
+        fn ray(
+            survey: &Survey<Self>,
+            origin_and_direction: [Vec3<Self>; 2],
+            longest: Self,
+        ) -> Option<Hit<Self>>;
 
         fn start_batch(
             first: &Scene<Self>,
@@ -135,6 +147,22 @@ macro_rules! compile {
 
             fn apply(change: Change<'_, Self>) -> Result<(), ChangeError> {
                 change.take_effect()
+            }
+
+            fn survey(bodies: &Bodies<Self>, scene: &Scene<Self>) -> Survey<Self> {
+                Survey::of(bodies, scene)
+            }
+
+            fn contacts(survey: &Survey<Self>, gap: Self) -> Vec<Contact<Self>> {
+                survey.find_contacts(gap)
+            }
+
+            fn ray(
+                survey: &Survey<Self>,
+                [origin, direction]: [Vec3<Self>; 2],
+                longest: Self,
+            ) -> Option<Hit<Self>> {
+                survey.first_hit(origin, direction, longest)
             }
 
             fn start_batch(

@@ -185,6 +185,25 @@ impl<T: Real> SphereTree<T> {
         Some(RayHit { body: number as usize, distance, point, normal })
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.spheres.len()
+    }
+
+    /// The centre and radius of a sphere, within the periodic box.
+    pub(crate) fn sphere(&self, number: u32) -> (Vec3<T>, T) {
+        self.spheres[number as usize]
+    }
+
+    pub(crate) fn periodic(&self) -> Option<PeriodicBox<T>> {
+        self.periodic
+    }
+
+    /// Visits the spheres that may reach into a sphere, some of them more than once.
+    pub(crate) fn for_each_near(&self, center: Vec3<T>, radius: T, visit: impl FnMut(u32)) {
+        self.each_near(around(center, radius), visit);
+    }
+
     /// The bytes that it holds.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -192,12 +211,12 @@ impl<T: Real> SphereTree<T> {
     }
 
     /// A point within the periodic box.
-    fn wrapped(&self, point: Vec3<T>) -> Vec3<T> {
+    pub(crate) fn wrapped(&self, point: Vec3<T>) -> Vec3<T> {
         self.periodic.map_or(point, |space| space.wrap(point))
     }
 
     /// The way from one point to another, to the nearest image.
-    fn nearest_way(&self, from: Vec3<T>, to: Vec3<T>) -> Vec3<T> {
+    pub(crate) fn nearest_way(&self, from: Vec3<T>, to: Vec3<T>) -> Vec3<T> {
         self.periodic.map_or(to - from, |space| space.nearest(to - from))
     }
 
@@ -245,7 +264,7 @@ fn around<T: Real>(center: Vec3<T>, radius: T) -> Bounds<T> {
 }
 
 /// A vector of length 1 in a direction, if it is one.
-fn unit<T: Real>(direction: Vec3<T>) -> Option<Vec3<T>> {
+pub(crate) fn unit<T: Real>(direction: Vec3<T>) -> Option<Vec3<T>> {
     let [x, y, z] = direction.to_array().map(|component| component.abs());
     let greatest = x.greater(y).greater(z);
     if !(greatest > T::ZERO && greatest.is_finite()) {
@@ -276,9 +295,9 @@ fn meets<T: Real>(start: Vec3<T>, unit: Vec3<T>, center: Vec3<T>, radius: T) -> 
 }
 
 /// Follows a ray through the images of a periodic box, in the order in which it comes to
-/// them, each with its neighbours, whose spheres reach into it. `from` looks at one image
-/// and gives the distance of the nearest sphere so far.
-fn along_boxes<T: Real>(
+/// them, each with its neighbours, what is in which reaches into it. `from` looks at one image
+/// and gives the distance of the nearest hit so far.
+pub(crate) fn along_boxes<T: Real>(
     space: PeriodicBox<T>,
     start: Vec3<T>,
     unit: Vec3<T>,

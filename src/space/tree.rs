@@ -79,15 +79,20 @@ impl<T: Real> Ray<T> {
         }
     }
 
-    /// Whether a box is in its way: it is between two faces of each axis at one time.
-    fn touches(&self, [lower, upper]: [[T; 3]; 2]) -> bool {
+    fn touches(&self, bounds: [[T; 3]; 2]) -> bool {
+        self.span(bounds).is_some()
+    }
+
+    /// From where to where a box is in its way, length: it is between two faces of each axis at
+    /// one time.
+    pub(crate) fn span(&self, [lower, upper]: [[T; 3]; 2]) -> Option<[T; 2]> {
         let (mut enters, mut leaves) = (T::ZERO, self.longest);
         for axis in 0..3 {
             let low = lower[axis] - self.margin - self.origin[axis];
             let high = upper[axis] + self.margin - self.origin[axis];
             if !self.inverse[axis].is_finite() {
                 if low > T::ZERO || high < T::ZERO {
-                    return false;
+                    return None;
                 }
                 continue;
             }
@@ -95,7 +100,7 @@ impl<T: Real> Ray<T> {
             enters = enters.greater(first.lesser(last));
             leaves = leaves.lesser(first.greater(last));
         }
-        enters <= leaves
+        (enters <= leaves).then_some([enters, leaves])
     }
 }
 

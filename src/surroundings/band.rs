@@ -50,7 +50,7 @@ impl<T: Real> Band<T> {
         Self { axis, slant, sides: Sides::Outer, rims: [true, false] }
     }
 
-    fn is_flat(&self) -> bool {
+    fn is_level(&self) -> bool {
         self.slant.along[1] == T::ZERO
     }
 
@@ -88,7 +88,7 @@ impl<T: Real> Obstacle<T> for Band<T> {
     }
 
     fn is_hollow(&self) -> bool {
-        !self.is_flat() && self.sides != Sides::Outer
+        !self.is_level() && self.sides != Sides::Outer
     }
 
     fn hop(&self, flight: &FreeFlight<T>, wait: T) -> T {
@@ -99,7 +99,11 @@ impl<T: Real> Obstacle<T> for Band<T> {
 impl<T: Real> Pieced<T> for Band<T> {
     /// A disc without a hole, or a solid cone.
     fn is_convex(&self) -> bool {
-        self.is_flat() && self.slant.start[0] == T::ZERO || self.sides == Sides::Outer
+        self.is_level() && self.slant.start[0] == T::ZERO || self.sides == Sides::Outer
+    }
+
+    fn is_flat(&self) -> bool {
+        self.is_level()
     }
 
     fn offset(&self, place: Vec3<T>) -> Vec3<T> {
@@ -109,7 +113,7 @@ impl<T: Real> Pieced<T> for Band<T> {
 
     fn each_piece(&self, visit: &mut dyn FnMut(Piece<T>)) {
         let Self { axis, slant, sides, rims } = *self;
-        if self.is_flat() {
+        if self.is_level() {
             let point = axis.point(slant.start[1]);
             for normal in [axis.direction, -axis.direction] {
                 visit(Piece::Face { point, normal });
@@ -121,7 +125,7 @@ impl<T: Real> Pieced<T> for Band<T> {
                 }
             }
         }
-        let is_whole = |end: [T; 2]| self.is_flat() && end[0] == T::ZERO;
+        let is_whole = |end: [T; 2]| self.is_level() && end[0] == T::ZERO;
         for (end, is_rim) in [slant.start, slant.end].into_iter().zip(rims) {
             if is_rim && !is_whole(end) {
                 visit(Piece::at_end(axis, end));

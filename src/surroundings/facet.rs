@@ -192,6 +192,10 @@ impl<T: Real> Pieced<T> for Facet<T> {
         true
     }
 
+    fn is_flat(&self) -> bool {
+        true
+    }
+
     fn offset(&self, place: Vec3<T>) -> Vec3<T> {
         let (distance, normal) = self.nearest(place);
         normal * distance

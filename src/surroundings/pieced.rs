@@ -20,6 +20,12 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
         false
     }
 
+    /// Of something convex: whether it has no inside. A centre alone comes through it by
+    /// rounding, and the march would see it go away.
+    fn is_flat(&self) -> bool {
+        false
+    }
+
     /// Of something convex: from the nearest point of its core to a place outside.
     fn offset(&self, _place: Vec3<T>) -> Vec3<T> {
         Vec3::ZERO
@@ -62,6 +68,9 @@ pub(super) trait Pieced<T: Real>: Obstacle<T> {
         }
         let lift = if start == Start::Apart { T::ZERO } else { gap.abs() };
         let reach = self.skin() + flight.radius;
+        if reach == T::ZERO && self.is_flat() {
+            return self.by_pieces(flight, start, gap);
+        }
         match tangent_march(flight, reach, from, lift, |place| self.offset(place)) {
             March::Contact(time) => Some(time),
             March::Never => None,
