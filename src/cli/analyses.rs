@@ -88,6 +88,48 @@ impl AskedAnalysis {
     }
 }
 
+/// Sends the findings of one of many runs, by its key, to files of its own in a folder, and
+/// gives their names.
+pub fn of_one_run(
+    file: &SceneFile,
+    asked: &mut [AskedAnalysis],
+    folder: &Path,
+    key: &str,
+) -> Result<Vec<String>, Failure> {
+    let mut names: Vec<String> = Vec::with_capacity(asked.len());
+    for (index, asked) in asked.iter_mut().enumerate() {
+        let stem = asked.path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("{}.csv", name_of_run(&stem, key));
+        if let Some(other) = names.iter().position(|other| *other == name) {
+            let found = format!("{:?}", asked.path.display().to_string());
+            let wanted = format!(
+                "of many runs all are in one folder, and analyse[{other}] has a file of that name; \
+                 give each its own"
+            );
+            return Err(file.mistake(&format!("analyse[{index}].file"), &found, &wanted).into());
+        }
+        asked.path = folder.join(&name);
+        names.push(name);
+    }
+    Ok(names)
+}
+
+/// The name of a file of a run: what is in it, and the key of the run as far as it can be in
+/// a name.
+fn name_of_run(stem: &str, key: &str) -> String {
+    /// Names of files end at 255 bytes.
+    const LONGEST: usize = 180;
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._=+-[]".contains(c);
+    let plain = key.trim().replace(' ', "_");
+    let name = format!("{stem}_{plain}");
+    if name.len() <= LONGEST && plain.chars().all(is_plain) {
+        return name;
+    }
+    let letters = plain.chars().map(|c| if is_plain(c) { c } else { '_' });
+    let start: String = letters.take(LONGEST / 2).collect();
+    format!("{stem}_{start}_{:016x}", xxhash_rust::xxh3::xxh3_64(key.as_bytes()))
+}
+
 /// The file of an analysis that names none.
 fn beside(file: &SceneFile, kind: AnalysisKind) -> PathBuf {
     file.in_folder(&format!("{}-{}.csv", file.name, kind.name()))

@@ -4,6 +4,8 @@ mod figures;
 mod point;
 mod tables;
 
+use std::path::Path;
+
 use carom::engine::Execution;
 use carom::scene::SceneFile;
 use carom::study::{Order, Point, StudyError, Subject};
@@ -20,6 +22,9 @@ use tables::{Group, report, write_means, write_runs};
 /// How long a run takes, seconds: it is not known before the first one. Only the
 /// proportions count.
 const UNKNOWN: f64 = f64::MIN_POSITIVE;
+
+/// The folder of the files of analyses, in that of the sweep.
+const ANALYSES: &str = "analyses";
 
 /// A run that is to be made.
 struct Planned {
@@ -67,9 +72,17 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let options = (arguments.scene.engine, arguments.scene.precision.map(|p| p.to_string()));
     let folder = arguments.folder.open(&format!("sweep-{}", base.name))?;
     let journal = folder.journal(&("sweep", common, options))?;
+    let analysed = folder.path().join(ANALYSES);
+    if !base.analyses()?.is_empty() {
+        std::fs::create_dir_all(&analysed).map_err(|error| StudyError::NoFolder {
+            path: analysed.clone(),
+            reason: error.to_string(),
+        })?;
+    }
     let teller = Teller::new(folder.path());
     let outcomes = side_by_side(arguments.scene.threads, || {
-        let points: Vec<_> = planned.iter().map(|planned| planned.point(execution)).collect();
+        let points = planned.iter().map(|planned| planned.point(execution, &analysed));
+        let points: Vec<_> = points.collect();
         Point::all(&points, &journal, Order::AtOnce, &teller)
     })?;
     drop(teller);
@@ -100,8 +113,11 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 }
 
 impl Planned {
-    fn point(&self, execution: Execution) -> Point<'_, Outcome> {
-        Point::new(&self.key, UNKNOWN, move || Ok(point::outcome(&self.file, execution)))
+    /// Its analyses go into files in a folder, by its key: of more values and seeds, those that
+    /// are there keep theirs.
+    fn point<'a>(&'a self, execution: Execution, folder: &'a Path) -> Point<'a, Outcome> {
+        let analysed = point::Analysed { folder, key: &self.key };
+        Point::new(&self.key, UNKNOWN, move || Ok(point::outcome(&self.file, execution, analysed)))
     }
 }
 

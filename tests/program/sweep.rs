@@ -141,3 +141,60 @@ fn mistakes_are_named_before_anything_runs() {
     }
     assert_eq!(folder.names(), ["scene.toml"]);
 }
+
+/// What the scene analyses is in a file for each run, as one run writes it, and its figures
+/// are in the tables.
+#[test]
+fn analyses_of_each_run() {
+    let scene = format!(
+        "{FLUID}[[analyse]]\nkind = \"radial-distribution\"\nfile = \"g.csv\"\n\
+         [[analyse]]\nkind = \"mean-squared-displacement\"\n\
+         [[analyse]]\nkind = \"collision-statistics\"\n"
+    );
+    let folder = Folder::with(&scene);
+    const SWEEP: &str = "sweep scene.toml --vary engine=stepped,event-driven --output s --seeds";
+    let text = folder.says(&format!("{SWEEP} 2")).well();
+    assert!(text.contains("analyse[1].diffusion"), "{text}");
+    let files: Vec<Vec<String>> =
+        (0..3).map(|k| texts(&folder, "s/runs.csv", &format!("analyse[{k}].file"))).collect();
+    assert_eq!(files[0][3], "g_engine=event-driven_seed=1.csv");
+    assert_eq!(files[1][0], "scene-mean-squared-displacement_engine=stepped_seed=0.csv");
+    let diffusion = column(&folder, "s/runs.csv", "analyse[1].diffusion");
+    for (run, options) in [(0, "engine=stepped"), (3, "engine=event-driven --seed 1")] {
+        let summary = folder.says(&format!("run scene.toml --json --set {options}")).summary();
+        let alone =
+            ["g.csv", "scene-mean-squared-displacement.csv", "scene-collision-statistics.csv"];
+        for (alone, files) in alone.into_iter().zip(&files) {
+            let of_run = folder.read(&format!("s/analyses/{}", files[run]));
+            assert!(of_run.lines().count() > 20);
+            assert_eq!(of_run, folder.read(alone));
+        }
+        let figures = &summary["analyses"][1]["figures"];
+        assert_eq!(figures["diffusion"]["mean"].as_f64(), Some(diffusion[run]));
+    }
+    let means = column(&folder, "s/means.csv", "analyse[1].diffusion");
+    assert_eq!(means[0], (diffusion[0] + diffusion[1]) / 2.0);
+    // More seeds: those that are there keep their files.
+    folder.says(&format!("{SWEEP} 3")).well();
+    let more = texts(&folder, "s/runs.csv", "analyse[0].file");
+    assert_eq!((more[0].clone(), more[3].clone()), (files[0][0].clone(), files[0][2].clone()));
+    assert_eq!(fs::read_dir(folder.path("s/analyses")).unwrap().count(), 18);
+}
+
+#[test]
+fn analyses_that_cannot_be_are_named_before_anything_runs() {
+    for (entries, words) in [
+        ("kind = \"bond-order\"\nevery = -1.0\n", "analyse[0].every"),
+        ("kind = \"bond-order\"\nfile = \"a.txt\"\n", "its ending must be .csv"),
+        (
+            "kind = \"bond-order\"\nfile = \"a.csv\"\n[[analyse]]\nkind = \"bond-order\"\n\
+             file = \"b/a.csv\"\n",
+            "analyse[0] has a file of that name",
+        ),
+    ] {
+        let folder = Folder::with(&format!("{FLUID}[[analyse]]\n{entries}"));
+        let message = folder.says("sweep scene.toml --seeds 2").fails_with(2);
+        assert!(message.contains(words), "{message}");
+        assert_eq!(folder.names(), ["scene.toml"]);
+    }
+}

@@ -1,9 +1,10 @@
 //! Figures: what a run of a sweep gives, as numbers under names.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use crate::cli::analyses::Found;
 use crate::cli::summary::Summary;
 
 /// A figure of a summary.
@@ -49,6 +50,12 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     FIGURES.iter().map(|figure| figure.name)
 }
 
+/// The names of figures that analyses have found in some of these runs.
+pub fn found_names<'a>(runs: impl Iterator<Item = &'a Outcome>) -> BTreeSet<&'a str> {
+    let all = runs.flat_map(|run| run.figures.keys().map(String::as_str));
+    all.filter(|name| !names().any(|known| known == *name)).collect()
+}
+
 /// What came of a run. The journal keeps it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
@@ -62,6 +69,9 @@ pub struct Outcome {
     pub seconds: f64,
     /// Why there are no figures.
     pub failure: Option<String>,
+    /// The files of its analyses.
+    #[serde(default)]
+    pub files: Vec<String>,
 }
 
 impl Outcome {
@@ -77,7 +87,25 @@ impl Outcome {
             state_hash: Some(summary.state_hash.to_string()),
             seconds: summary.wall_seconds,
             failure: None,
+            files: Vec::new(),
         }
+    }
+}
+
+impl Outcome {
+    /// The same with what its analyses have found: figures, by the entry of each in the scene.
+    pub fn with_found(mut self, found: &[Found], files: Vec<String>) -> Self {
+        self.files = files;
+        for (index, found) in found.iter().enumerate() {
+            for (name, figure) in &found.figures {
+                let name = format!("analyse[{index}].{name}");
+                if let Some(error) = figure.error {
+                    self.errors.insert(name.clone(), error);
+                }
+                self.figures.insert(name, figure.mean);
+            }
+        }
+        self
     }
 }
 

@@ -1,28 +1,40 @@
 //! Point: one run of a sweep, from its scene to its figures.
 
+use std::path::Path;
 use std::time::Instant;
 
-use carom::engine::{Compiled, Execution, World};
-use carom::observe::{Temperature, fall_energy};
+use carom::engine::{Compiled, Event, Execution, World};
+use carom::observe::{Images, Temperature, fall_energy};
+use carom::real::Real;
 use carom::scene::{Precision, SceneFile};
+use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::figures::Outcome;
+use crate::cli::analyses::{Analyses, AskedAnalysis, of_one_run};
 use crate::cli::conclusion::Ended;
 use crate::cli::failure::Failure;
 use crate::cli::measured::Measured;
 use crate::cli::outlook;
+use crate::cli::output_file::OutputFile;
 use crate::cli::run::{explained, gas, totals_at_start};
-use crate::cli::summary::{Setup, Summary};
+use crate::cli::summary::Setup;
+
+/// Where the findings of a run go: into files in a folder, by the key of the run.
+#[derive(Clone, Copy)]
+pub struct Analysed<'a> {
+    pub folder: &'a Path,
+    pub key: &'a str,
+}
 
 /// Runs a scene; a failure is an outcome too.
-pub fn outcome(file: &SceneFile, execution: Execution) -> Outcome {
+pub fn outcome(file: &SceneFile, execution: Execution, analysed: Analysed<'_>) -> Outcome {
     let run = match file.precision {
-        Precision::F32 => run::<f32>(file, execution),
-        _ => run::<f64>(file, execution),
+        Precision::F32 => run::<f32>(file, execution, analysed),
+        _ => run::<f64>(file, execution, analysed),
     };
     match run {
-        Ok(summary) => Outcome::of(&summary),
+        Ok(outcome) => outcome,
         Err(failure) => Outcome { failure: Some(failure.to_string()), ..Outcome::default() },
     }
 }
@@ -37,14 +49,20 @@ pub fn check(file: &SceneFile, execution: Execution) -> Result<(), Failure> {
 
 fn check_in<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<(), Failure> {
     let duration = file.run_duration()?;
-    file.equilibration(duration)?;
+    let equilibration = file.equilibration(duration)?;
     let scene = file.build::<T>()?;
     outlook::check(&scene, duration, execution)?;
     totals_at_start(&scene)?;
+    let mut asked = AskedAnalysis::all(file, &scene, (duration, equilibration))?;
+    of_one_run(file, &mut asked, Path::new(""), "")?;
     Ok(())
 }
 
-fn run<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<Summary, Failure> {
+fn run<T: Compiled>(
+    file: &SceneFile,
+    execution: Execution,
+    analysed: Analysed<'_>,
+) -> Result<Outcome, Failure> {
     let start = Instant::now();
     let duration = file.run_duration()?;
     let equilibration = file.equilibration(duration)?;
@@ -52,12 +70,19 @@ fn run<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<Summary, F
     outlook::check(&scene, duration, execution)?;
     let before = totals_at_start(&scene)?;
     let (mut setup, gas, fall) = (Setup::of(&scene), gas(&scene), fall_energy(&scene));
-    let shapes = scene.surroundings.clone();
+    let (shapes, space) = (scene.surroundings.clone(), scene.periodic);
+    let mut asked = AskedAnalysis::all(file, &scene, (duration, equilibration))?;
+    let names = of_one_run(file, &mut asked, analysed.folder, analysed.key)?;
     let mut world = World::new(scene, execution)?;
     setup.lanes = world.plan().sweep_lanes;
     setup.threads = world.plan().threads;
     let course = Course::new(&world, duration);
     let mut measured = Measured::new(&world, &course, equilibration, gas);
+    let files = asked.iter().map(|asked| OutputFile::open(&asked.path));
+    let files = files.collect::<Result<Vec<_>, _>>()?;
+    let mut images =
+        space.filter(|_| !asked.is_empty()).map(|space| Boxes::new(space, &world, &course));
+    let mut analyses = Analyses::new(asked, files, (&world, &course), equilibration, None);
     let setup_seconds = start.elapsed().as_secs_f64();
     let start = Instant::now();
     loop {
@@ -65,13 +90,29 @@ fn run<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<Summary, F
         while measured.mark(course.length()).is_some_and(|mark| mark <= position) {
             measured.take(&world, position, || Temperature::of(&world.bodies()));
         }
+        let is_analysed = analyses.mark() == Some(position);
+        if let Some(images) = &mut images {
+            images.look(&world, &course, is_analysed);
+        }
+        if is_analysed {
+            let images = images.as_ref().map(|boxes| &boxes.images);
+            analyses.look(&world, &world.bodies(), space, images);
+        }
         if position >= course.length() {
             break;
         }
-        let mark = measured.mark(course.length()).unwrap_or(course.length());
+        let marks =
+            [measured.mark(course.length()), analyses.mark(), images.as_ref().map(|it| it.next)];
+        let mark = marks.into_iter().flatten().fold(course.length(), f64::min);
+        let hears = analyses.hears();
+        let mut hear = |event: &Event<T>| analyses.hear(event);
         course
-            .finish(&mut world, mark, None)
+            .finish(&mut world, mark, if hears { Some(&mut hear) } else { None })
             .map_err(|error| explained(error.into(), &world, &shapes))?;
+    }
+    let (files, found): (Vec<_>, Vec<_>) = analyses.finish()?.into_iter().unzip();
+    for file in files {
+        file.finish()?;
     }
     let bodies = world.bodies();
     let ended = Ended {
@@ -84,8 +125,33 @@ fn run<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<Summary, F
         equilibration,
         measured: &measured,
         earlier: Default::default(),
-        found: Vec::new(),
+        found: found.clone(),
         seconds: [setup_seconds, start.elapsed().as_secs_f64()],
     };
-    ended.summary()
+    Ok(Outcome::of(&ended.summary()?).with_found(&found, names))
+}
+
+/// The boxes of a periodic space that bodies move through.
+struct Boxes<T: Real> {
+    images: Images<T>,
+    /// Where the bodies are to be looked at next.
+    next: f64,
+}
+
+impl<T: Real> Boxes<T> {
+    fn new(space: PeriodicBox<T>, world: &World<T>, course: &Course) -> Self {
+        let bodies = world.bodies();
+        let images = Images::new(space, &bodies);
+        let next = course.after(world, images.next_look(&bodies, world.gravity()));
+        Self { images, next }
+    }
+
+    /// Looks at the bodies, if that is due or asked for.
+    fn look(&mut self, world: &World<T>, course: &Course, is_asked: bool) {
+        if is_asked || self.next <= Course::position(world) {
+            let bodies = world.bodies();
+            self.images.look(&bodies);
+            self.next = course.after(world, self.images.next_look(&bodies, world.gravity()));
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use carom::study::table::{Table, digits, plain};
 use carom::study::{Folder, StudyError};
 
-use super::figures::{Mean, Outcome, names};
+use super::figures::{Mean, Outcome, found_names, names};
 
 /// What the report shows of the means.
 const SHOWN: [&str; 7] = [
@@ -41,13 +41,22 @@ pub fn write_runs(folder: &Folder, keys: &[&str], groups: &[Group<'_>]) -> Resul
     let owned = |name: &str| name.to_owned();
     let figures = ["seed"].into_iter().chain(names()).map(owned);
     let errors = WITH_ERRORS.iter().map(|name| format!("{name}_error"));
+    let runs = || groups.iter().flat_map(|group| group.runs);
+    let found = found_names(runs());
+    let of_analyses = found.iter().flat_map(|name| [owned(name), format!("{name}_error")]);
+    let files = runs().map(|run| run.files.len()).max().unwrap_or(0);
+    let of_files = (0..files).map(|index| format!("analyse[{index}].file"));
     let last = ["seconds", "state_hash", "failure"].map(owned);
-    let header = keys.iter().copied().map(owned).chain(figures).chain(errors).chain(last);
+    let header = keys.iter().copied().map(owned).chain(figures).chain(errors);
+    let header = header.chain(of_analyses).chain(of_files).chain(last);
     let header = header.collect();
     let rows = groups.iter().flat_map(|group| {
         group.seeds.iter().zip(group.runs).map(|(seed, run)| {
             let figures = names().map(|name| run.figures.get(name));
             let errors = WITH_ERRORS.iter().map(|name| run.errors.get(*name));
+            let found =
+                found.iter().flat_map(|name| [run.figures.get(*name), run.errors.get(*name)]);
+            let files = (0..files).map(|index| run.files.get(index).cloned().unwrap_or_default());
             let text = |text: &Option<String>| text.clone().unwrap_or_default();
             let values = group.values.iter().map(|value| (*value).to_owned());
             values
@@ -55,8 +64,10 @@ pub fn write_runs(folder: &Folder, keys: &[&str], groups: &[Group<'_>]) -> Resul
                 .chain(
                     figures
                         .chain(errors)
+                        .chain(found)
                         .map(|number| number.map_or_else(String::new, |n| plain(*n))),
                 )
+                .chain(files)
                 .chain([digits(run.seconds), text(&run.state_hash), text(&run.failure)])
                 .collect()
         })
@@ -66,6 +77,9 @@ pub fn write_runs(folder: &Folder, keys: &[&str], groups: &[Group<'_>]) -> Resul
 
 /// The means over the seeds, with their errors.
 pub fn write_means(folder: &Folder, keys: &[&str], groups: &[Group<'_>]) -> Result<(), StudyError> {
+    let found = found_names(groups.iter().flat_map(|group| group.runs));
+    let known = || names().map(|name| -> &str { name });
+    let names = || known().chain(found.iter().copied());
     let figures = names().flat_map(|name| [name.to_owned(), format!("{name}_error")]);
     let header = keys.iter().map(|key| (*key).to_owned());
     let header = header.chain(["runs".to_owned()]).chain(figures).collect();
@@ -107,7 +121,8 @@ pub fn report(name: &str, keys: &[&str], groups: &[Group<'_>], folder: &Path) ->
     let is_there = |name: &&str| {
         groups.iter().any(|group| Mean::of(name, group.runs).is_some_and(|mean| mean.mean != 0.0))
     };
-    let shown: Vec<&str> = SHOWN.into_iter().filter(is_there).collect();
+    let found = found_names(groups.iter().flat_map(|group| group.runs));
+    let shown: Vec<&str> = SHOWN.into_iter().chain(found).filter(is_there).collect();
     let mut table = Table::default();
     table.row(&keys.join(", "), shown.iter().map(|name| (*name).to_owned()));
     for group in groups {
