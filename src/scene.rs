@@ -82,8 +82,8 @@ pub use error::{Place, Problem, SceneError};
 #[cfg(feature = "files")]
 pub use file::SceneFile;
 pub use inlet::Inlet;
-#[cfg(feature = "files")]
 pub(crate) use obstacles::Obstacles;
+#[cfg(feature = "files")]
 pub use outputs::AskedAnalysis;
 pub(crate) use quick::QuickCheck;
 pub use random::Random;
