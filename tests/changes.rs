@@ -9,7 +9,7 @@ mod survey;
 use carom::bodies::Bodies;
 use carom::engine::{Change, Compiled, Event, Execution, Partner, Snapshot, World};
 use carom::scene::{EngineKind, Scene, SceneFile};
-use carom::state_hash;
+use carom::{FixedSphere, state_hash};
 use common::numbers::noise;
 
 /// Rough spheres of many sizes that fall about in a box, a ball fixed in its middle.
@@ -389,5 +389,28 @@ fn cost() {
         let asked = clock.elapsed() / 973;
         println!("{engine:?}: tree in {built_tree:?}, a sphere of {found}/973 in {asked:?}");
         println!("{engine:?}: built in {built:?}, 20 steps of time in {advanced:?}");
+        let clock = std::time::Instant::now();
+        let survey = world.survey();
+        let surveyed = clock.elapsed();
+        let clock = std::time::Instant::now();
+        let beside = survey.contacts(0.05).len();
+        let listed = clock.elapsed();
+        println!(
+            "{engine:?}: survey in {surveyed:?}, {beside} pairs beside each other in {listed:?}"
+        );
+        let clock = std::time::Instant::now();
+        let hits = more.iter().filter(|it| survey.ray(**it, [0.3, 0.2, 0.9], 50.0).is_some());
+        let hits = hits.count();
+        println!("{engine:?}: {hits} of 973 rays in {:?} each", clock.elapsed() / 973);
+        // In the middle: no part is near a face of a periodic box.
+        let middle = world.scene().periodic.unwrap().sides() * 0.5;
+        let body = tree.nearest(middle, 1)[0] as usize;
+        let ball = FixedSphere::solid(world.bodies().position_of(body).to_array(), 0.25);
+        let mut change = world.change();
+        act(change.remove(body));
+        change.add_part(ball);
+        let clock = std::time::Instant::now();
+        change.apply().unwrap();
+        println!("{engine:?}: a part put in the place of a body in {:?}", clock.elapsed());
     }
 }
