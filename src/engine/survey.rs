@@ -72,8 +72,8 @@ pub struct Hit<T> {
 /// assert_eq!(pairs(0.0), [(0, floor), (0, next(1)), (1, floor), (2, floor)]);
 /// assert_eq!(pairs(0.125), [(0, floor), (0, next(1)), (1, floor), (1, next(2)), (2, floor)]);
 /// // A ray between the balls comes to the floor.
-/// let hit = survey.ray([1.5, 0.0, 4.0], [0.0, 0.0, -1.0], 10.0).ok_or("nothing is hit")?;
-/// assert_eq!((hit.what, hit.distance, hit.normal.z), (floor, 3.5, 1.0));
+/// let hit = survey.ray([1.5625, 0.0, 4.0], [0.0, 0.0, -1.0], 10.0).ok_or("nothing is hit")?;
+/// assert_eq!((hit.what, hit.distance, hit.normal.z), (floor, 4.0, 1.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
