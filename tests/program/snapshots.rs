@@ -122,7 +122,7 @@ fn what_is_no_snapshot_is_told_apart() {
     refused(&changed, "is damaged");
     changed.clone_from(&whole);
     changed[12] += 1;
-    refused(&changed, "is a snapshot of version 6");
+    refused(&changed, "is a snapshot of version 7");
     let message = folder.says("run --resume no.snapshot").fails_with(2);
     assert!(message.contains("no.snapshot: it cannot be read"), "{message}");
 }
