@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use carom::DoubleDouble;
 use carom::engine::{Compiled, Execution, World};
 use carom::observe::{Temperature, fall_energy};
 use carom::scene::{Precision, SceneFile};
@@ -19,6 +20,7 @@ use crate::cli::summary::{Setup, Summary};
 pub fn outcome(file: &SceneFile, execution: Execution) -> Outcome {
     let run = match file.precision {
         Precision::F32 => run::<f32>(file, execution),
+        Precision::DoubleDouble => run::<DoubleDouble>(file, execution),
         _ => run::<f64>(file, execution),
     };
     match run {
@@ -31,6 +33,7 @@ pub fn outcome(file: &SceneFile, execution: Execution) -> Outcome {
 pub fn check(file: &SceneFile, execution: Execution) -> Result<(), Failure> {
     match file.precision {
         Precision::F32 => check_in::<f32>(file, execution),
+        Precision::DoubleDouble => check_in::<DoubleDouble>(file, execution),
         _ => check_in::<f64>(file, execution),
     }
 }
@@ -80,6 +83,7 @@ fn run<T: Compiled>(file: &SceneFile, execution: Execution) -> Result<Summary, F
         bodies: &bodies,
         course,
         before,
+        start: None,
         fall,
         equilibration,
         measured: &measured,
