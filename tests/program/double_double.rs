@@ -36,9 +36,9 @@ fn a_flight_has_all_its_digits() {
     assert_eq!((number("vx"), number("radius")), (of(0.3), of(0.2)));
     let half = DoubleDouble::ratio(1, 2);
     let energy = half * (of(0.3) * of(0.3) + of(-0.1) * of(-0.1));
-    let told = &summary["all_digits"]["energy"];
-    let told = |key: &str| told[key].as_str().unwrap().parse::<DoubleDouble>().unwrap();
-    assert_eq!((told("initial"), told("final"), told("change")), (energy, energy, of(0.0)));
+    let all = &summary["all_digits"]["energy"];
+    let digits = |key: &str| all[key].as_str().unwrap().parse::<DoubleDouble>().unwrap();
+    assert_eq!((digits("initial"), digits("final"), digits("change")), (energy, energy, of(0.0)));
     let text = folder.says("run scene.toml").well();
     assert!(text.contains("1 smooth sphere in dd"), "{text}");
     assert!(text.contains("all digits") && text.contains(&format!(" {energy}\n")), "{text}");

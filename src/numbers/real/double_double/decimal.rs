@@ -25,7 +25,7 @@ struct Decimal {
 impl Decimal {
     /// A finite number, with all of its digits.
     fn of(value: f64) -> Self {
-        // It is a whole number times this power of two: of a negative one, so many digits
+        // It is a whole number times this power of two: of a negative one, as many digits
         // stand behind the point.
         let power = ((value.to_bits() >> 52) & 0x7ff).max(1) as i32 - 1075;
         let before = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 + 2 };
