@@ -104,6 +104,22 @@ fn push_number<T: Real>(text: &mut Vec<u8>, value: T) {
     }
 }
 
+/// Whether numbers are stored as `f32`, and not as `f64`.
+///
+/// # Errors
+/// In a precision that files of bytes have no type for.
+#[cfg(feature = "study")]
+fn is_single<T: Real>() -> io::Result<bool> {
+    match T::NAME {
+        "f32" => Ok(true),
+        "f64" => Ok(false),
+        other => {
+            let problem = format!("arrays and .vtp files have no type for {other}; text has");
+            Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
+        }
+    }
+}
+
 /// A writer of comma-separated values that hands on large pieces.
 fn csv_writer<W: io::Write>(output: W) -> csv::Writer<W> {
     csv::WriterBuilder::new().buffer_capacity(1 << 18).from_writer(output)

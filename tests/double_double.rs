@@ -152,3 +152,80 @@ fn columns_turn_and_fly() {
     assert!(is_near(x[2], end.x, 1e-29) && is_near(z[2], end.z, 1e-28));
     assert!(is_near(w[2], velocity.z, 1e-29));
 }
+
+/// Reads the digits of a number back, bit by bit.
+#[track_caller]
+fn goes_round(given: Number) -> String {
+    let text = given.to_string();
+    let read: Number = text.parse().unwrap();
+    assert_eq!(read.halves().map(f64::to_bits), given.halves().map(f64::to_bits), "{text}");
+    // Who reads no more finds the nearest f64.
+    assert_eq!(text.parse::<f64>(), Ok(given.high()));
+    text
+}
+
+#[test]
+fn digits_of_known_numbers() {
+    let of = |high| goes_round(Number::new(high, 0.0));
+    assert_eq!(of(0.5), "0.5");
+    assert_eq!(of(-3.0), "-3.0");
+    assert_eq!(of(1e22), "10000000000000000000000.0");
+    assert_eq!(of(2.0_f64.powi(-20)), "9.5367431640625e-7");
+    assert_eq!((of(0.0).as_str(), Number::new(-0.0, 0.0).to_string().as_str()), ("0.0", "-0.0"));
+    // All digits of the f64, and those of a tenth, with more than an f64 has.
+    assert_eq!(of(0.1), "0.1000000000000000055511151231257827021181583404541015625");
+    assert_eq!(goes_round(Number::ratio(1, 10)), "0.100000000000000000");
+    for text in ["0.33333333333333333333333333333333", "-66.666666666666666666666666666667"] {
+        assert_eq!(goes_round(text.parse().unwrap()), text);
+    }
+    assert_eq!(of(f64::from_bits(1)).len(), 751 + ".e-324".len());
+    let tiny = goes_round(Number::new(1.0, 1e-200));
+    assert!(tiny.starts_with("1.000000000") && tiny.len() > 200, "{tiny}");
+    assert_eq!(Number::new(f64::INFINITY, 0.0).to_string(), "inf");
+    assert_eq!(format!("{:.2}", Number::ratio(2, 3)), "0.67");
+}
+
+#[test]
+fn texts_are_read_to_the_nearest() {
+    let read = |text: &str| text.parse::<Number>().map(Real::halves);
+    assert_eq!(read("0.1"), Ok([0.1, -5.551115123125783e-18]));
+    assert_eq!(read("-.5"), Ok([-0.5, 0.0]));
+    assert_eq!(read("+5.e-1"), Ok([0.5, 0.0]));
+    assert_eq!(read("0.0000e99999999"), Ok([0.0, 0.0]));
+    assert_eq!(read("1e400"), Ok([f64::INFINITY, 0.0]));
+    assert_eq!(read("9007199254740993"), Ok([9007199254740992.0, 1.0]));
+    for text in ["", "one", "1.5x", "0.5+1e-20", "--1"] {
+        assert!(read(text).is_err(), "{text}");
+    }
+}
+
+/// Halves of any sizes, next to each other or far apart, of either sign.
+#[test]
+fn all_digits_go_round() {
+    let mut state = 1_u64;
+    let mut next = || {
+        // xorshift* (Vigna 2016).
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        state.wrapping_mul(0x2545_F491_4F6C_DD1D)
+    };
+    let mut longest = 0;
+    for k in 0..20_000 {
+        let size: u64 = if k % 4 == 0 { 900 } else { 40 };
+        let mantissa = 1.0 + (next() >> 12) as f64 * f64::EPSILON;
+        let high = mantissa * 2.0_f64.powi((next() % size) as i32 - size as i32 / 2);
+        let is_near = k % 8 != 0;
+        let gap = (next() % if is_near { 4 } else { 100 }) as i32;
+        let part = (next() >> 11) as f64 * f64::EPSILON / 2.0;
+        let low = high * f64::EPSILON / 4.0 * part * 2.0_f64.powi(-gap);
+        let [high, low] = [high, low].map(|half| if next() % 2 == 0 { half } else { -half });
+        let text = goes_round(Number::new(high, low));
+        let digits = text.split('e').next().unwrap_or("").bytes().filter(u8::is_ascii_digit);
+        if is_near && part > 0.25 {
+            longest = longest.max(digits.skip_while(|digit| *digit == b'0').count());
+        }
+    }
+    println!("{longest} digits at most");
+    assert!((32..=36).contains(&longest), "{longest}");
+}

@@ -30,6 +30,11 @@ study() {
 study throw error docs/studies/throw.toml
 study box error docs/studies/box.toml
 study fluid error hard-sphere-fluid
+# docs/methods.md: where the method is a choice.
+study few-collisions error docs/studies/few-collisions.toml --times 1 --dt 0.5,0.25,0.1,0.05
+for scene in dense masses arcs pile; do
+    study "$scene" error "docs/studies/$scene.toml"
+done
 study predictability precision docs/studies/predictability.toml
 study bounces precision bouncing-ball
 study stability stability "$@"

@@ -176,7 +176,8 @@ pub struct SceneArguments {
     ))]
     pub scene: Option<PathBuf>,
 
-    /// In which numbers; the scene says it otherwise
+    /// In which numbers: single or double precision, or double-double, with 32 digits at some
+    /// forty times the cost; the scene says it otherwise
     #[arg(long, value_parser = one_of(&PRECISIONS))]
     pub precision: Option<Precision>,
 
@@ -416,7 +417,12 @@ impl SceneArguments {
     }
 }
 
-pub const PRECISIONS: [(&str, Precision); 2] = [("f32", Precision::F32), ("f64", Precision::F64)];
+pub const PRECISIONS: [(&str, Precision); 3] =
+    [("f32", Precision::F32), ("f64", Precision::F64), ("dd", Precision::DoubleDouble)];
+
+/// Those that there are lanes for.
+pub const FAST_PRECISIONS: [(&str, Precision); 2] =
+    [("f32", Precision::F32), ("f64", Precision::F64)];
 
 pub const ENGINES: [(&str, EngineKind); 2] =
     [("stepped", EngineKind::Stepped), ("event-driven", EngineKind::EventDriven)];

@@ -56,6 +56,11 @@ struct Finished {
 pub fn batch(arguments: &BatchArguments) -> Result<(), Failure> {
     let base = scene_file(&arguments.scene)?;
     refuse_flow(&base, "a batch")?;
+    if base.precision == Precision::DoubleDouble {
+        let reason = "the precision is dd, and a batch is in f32 or f64: there are no lanes of \
+                      double-doubles; take one of these, or `carom sweep`";
+        return Err(Failure::Argument(format!("{}: {reason}", base.name)));
+    }
     let varied = Varied::parse(&arguments.vary)?;
     refuse_both(&arguments.scene, &varied.keys())?;
     refuse_unfit(&varied)?;

@@ -5,11 +5,12 @@ use carom::engine::{Collisions, World};
 use carom::observe::{Temperature, Totals, not_finite, state_hash};
 use carom::real::Real;
 use carom::study::Course;
+use carom::study::invariants::Invariants;
 
 use super::analyses::Found;
 use super::failure::Failure;
 use super::measured::Measured;
-use super::summary::{Setup, Summary, Work};
+use super::summary::{AllDigits, Setup, Summary, Work};
 
 /// A run at its end.
 pub struct Ended<'a, T: Real> {
@@ -20,6 +21,8 @@ pub struct Ended<'a, T: Real> {
     pub course: Course,
     /// What was conserved at the start, and the energy that bodies can fall through.
     pub before: Totals,
+    /// The same to more digits, of a run that has them.
+    pub start: Option<Invariants>,
     pub fall: f64,
     pub equilibration: f64,
     pub measured: &'a Measured,
@@ -63,7 +66,8 @@ impl<T: Real> Ended<'_, T> {
         };
         let hash = state_hash(bodies);
         let temperature = Temperature::of(bodies);
-        let summary = Summary::new(setup, &before, &after, temperature, hash, &work);
+        let mut summary = Summary::new(setup, &before, &after, temperature, hash, &work);
+        summary.all_digits = self.start.map(|start| AllDigits::of(&start, bodies, world.gravity()));
         match summary.not_finite() {
             Some(what) => Err(left(format!("the {what} of the summary is no finite number"))),
             None => Ok(summary),

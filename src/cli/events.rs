@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use carom::engine::{EngineError, Event};
 use carom::output::{EventArrays, EventFilter, EventWriter};
 use carom::real::Real;
+use carom::scene::Precision;
 use serde::{Deserialize, Serialize};
 
 use super::arguments::RunArguments;
@@ -31,14 +32,22 @@ pub struct AskedEvents {
 }
 
 impl AskedEvents {
-    /// What the options ask, of a scene with a number of bodies.
+    /// What the options ask, of a scene in a precision and with a number of bodies.
     pub fn of(
         arguments: &RunArguments,
+        precision: Precision,
         bodies: usize,
         is_kept: bool,
     ) -> Result<Option<Self>, Failure> {
         let Some(path) = &arguments.events else { return Ok(None) };
         let is_archive = is_archive(path)?;
+        if is_archive && precision == Precision::DoubleDouble {
+            return Err(Failure::Argument(format!(
+                "--events is {}; arrays have no type for {precision}, which keeps all its digits in \
+                 text: .csv",
+                path.display()
+            )));
+        }
         if is_archive && is_kept {
             return Err(Failure::Argument(format!(
                 "--events is {}; events of a run that is kept by --snapshot, or that goes on by \

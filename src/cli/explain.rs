@@ -1,5 +1,6 @@
 //! `carom explain`: the plan of a scene, and what its meshes are like.
 
+use carom::DoubleDouble;
 use carom::engine::{Compiled, World};
 use carom::scene::{Precision, SceneFile};
 use carom::surroundings::{MeshReport, Shape};
@@ -14,6 +15,7 @@ pub fn explain(arguments: &SceneArguments) -> Result<(), Failure> {
     let file = scene_file(arguments)?;
     let plan = match file.precision {
         Precision::F32 => plan::<f32>(&file, arguments)?,
+        Precision::DoubleDouble => plan::<DoubleDouble>(&file, arguments)?,
         _ => plan::<f64>(&file, arguments)?,
     };
     print(&plan)

@@ -7,7 +7,7 @@ use carom::engine::World;
 use carom::observe::Images;
 use carom::output::{Frame, FrameFormat, FrameWriter};
 use carom::real::Real;
-use carom::scene::{EngineKind, SceneFile};
+use carom::scene::{EngineKind, Precision, SceneFile};
 use carom::space::PeriodicBox;
 use carom::study::Course;
 use serde::{Deserialize, Serialize};
@@ -46,6 +46,13 @@ impl Recording {
             let wanted = format!("its ending must be {}", FrameFormat::ENDINGS);
             return Err(asked.refused(WORDS, file, &wanted));
         };
+        if !takes(format, file.precision) {
+            let wanted = format!(
+                "its format has no type for {}; give it an ending of {TEXTS}",
+                file.precision
+            );
+            return Err(asked.refused(WORDS, file, &wanted));
+        }
         if file.has_flow() && format == FrameFormat::NumPy {
             let wanted = "spheres come and go, and an array has as many in each frame; give it an \
                           ending of .dump, .lammpstrj, .xyz, .extxyz or .pvd";
@@ -60,10 +67,24 @@ impl Recording {
     }
 }
 
+/// The endings of formats of text.
+const TEXTS: &str = ".dump, .lammpstrj, .xyz or .extxyz";
+
+/// Whether a format has numbers of a precision: bytes have types, and none for double-double.
+fn takes(format: FrameFormat, precision: Precision) -> bool {
+    let is_text = matches!(format, FrameFormat::Dump | FrameFormat::Xyz);
+    is_text || precision != Precision::DoubleDouble
+}
+
 /// How the state of a path is written: `None` for comma-separated values, which files
 /// without an ending hold, devices and pipes among them.
-pub fn state_format(path: &Path) -> Result<Option<FrameFormat>, Failure> {
+pub fn state_format(path: &Path, precision: Precision) -> Result<Option<FrameFormat>, Failure> {
     match FrameFormat::of(path) {
+        Some(format) if !takes(format, precision) => Err(Failure::Argument(format!(
+            "--state is {}; its format has no type for {precision}, which keeps all its digits in \
+             .csv, and others in {TEXTS}",
+            path.display()
+        ))),
         None if path.extension().is_none_or(|ending| ending == "csv") => Ok(None),
         Some(format) => Ok(Some(format)),
         None => Err(Failure::Argument(format!(

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
+use carom::DoubleDouble;
 use carom::contact::Surface;
 use carom::engine::{Compiled, EngineError, World};
 use carom::observe::{Standstill, Totals, Unresolved, fall_energy, unresolved};
@@ -28,7 +29,7 @@ use super::progress::SettingUp;
 use super::recording::{Recorder, Recording, state_format};
 use super::scene_argument::scene_file;
 use super::series::{AskedSeries, Series};
-use super::summary::{Setup, Summary};
+use super::summary::{AllDigits, Setup, Summary};
 use super::{print, standard_output};
 
 /// Runs a scene and prints its summary.
@@ -44,6 +45,7 @@ pub fn run(arguments: &RunArguments) -> Result<(), Failure> {
     };
     match file.precision {
         Precision::F32 => run_in::<f32>(&file, arguments, kept.as_ref()),
+        Precision::DoubleDouble => run_in::<DoubleDouble>(&file, arguments, kept.as_ref()),
         _ => run_in::<f64>(&file, arguments, kept.as_ref()),
     }
 }
@@ -87,13 +89,15 @@ fn run_in<T: Compiled>(
     let recording = Recording::of(arguments, file, duration)?;
     let series = AskedSeries::of(arguments, file, duration)?;
     let keeping = Keeping::of(arguments, file)?;
+    let state_format = |path| state_format(path, file.precision);
     let state_format = arguments.state.as_deref().map(state_format).transpose()?.flatten();
     let scene = file.build::<T>()?;
     let is_kept = keeping.is_some() || kept.is_some();
-    let events = AskedEvents::of(arguments, scene.bodies.len(), is_kept)?;
+    let events = AskedEvents::of(arguments, file.precision, scene.bodies.len(), is_kept)?;
     let analyses = AskedAnalysis::all(file, &scene, (duration, equilibration))?;
     outlook::check(&scene, duration, arguments.scene.execution())?;
     let before = totals_at_start(&scene)?;
+    let conserved_at_start = AllDigits::at_start(&scene);
     standard_output()?;
     let doubt = unresolved(&scene.bodies, duration);
     let mut setup = Setup::of(&scene);
@@ -164,6 +168,7 @@ fn run_in<T: Compiled>(
         bodies: &bodies,
         course,
         before,
+        start: conserved_at_start,
         fall,
         equilibration,
         measured: journey.measured(),

@@ -1,5 +1,6 @@
 //! Summary: what a run was and what came of it.
 
+mod all_digits;
 mod display;
 
 use std::collections::BTreeMap;
@@ -20,6 +21,8 @@ use carom::vec3::Vec3;
 
 use super::analyses::Found;
 use super::measured::Reading;
+
+pub use all_digits::AllDigits;
 
 /// The corners of a box.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -311,6 +314,9 @@ pub struct Summary {
     /// What was found of the bodies, in the order of the scene file.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub analyses: Vec<Found>,
+    /// What is conserved, to more digits than a number of JSON has, of a run in double-double.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub all_digits: Option<AllDigits>,
     /// Hash of the bits of the final state.
     pub state_hash: StateHash,
     /// Wall time, seconds: set-up, the engine, and writing events.
@@ -390,6 +396,7 @@ impl Summary {
             equilibrate: (work.equilibration > 0.0).then_some(work.equilibration),
             statistics: work.statistics.clone(),
             analyses: work.found.clone(),
+            all_digits: None,
             state_hash,
             wall_seconds: setup_seconds + engine_seconds,
             setup_seconds,

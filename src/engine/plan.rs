@@ -8,6 +8,7 @@ mod rows;
 use super::{Execution, Lanes, Order};
 use crate::bodies::PerBody;
 use crate::contact::Surface;
+use crate::lane::Lane;
 use crate::motion::Integrator;
 use crate::real::Real;
 use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene, Summation};
@@ -250,6 +251,8 @@ fn has_short_steps<T: Real>(scene: &Scene<T>) -> bool {
 /// in sweeps; where lanes are filled one by one, half of it, and 16 never are.
 fn lanes<T: Real>(lanes: Lanes) -> (usize, usize) {
     match lanes {
+        // A precision without packs.
+        _ if <T::Pack4 as Lane>::WIDTH == 1 => (1, 1),
         Lanes::Auto if size_of::<T>() <= 4 => (16, 8),
         Lanes::Auto => (8, 4),
         Lanes::Scalar => (1, 1),

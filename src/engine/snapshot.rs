@@ -197,14 +197,7 @@ impl Reals {
         match T::NAME {
             "f32" => Self::Single(values.map(|value| value.to_f64() as f32).collect()),
             "f64" => Self::Double(values.map(Real::to_f64).collect()),
-            _ => Self::Pairs(
-                values
-                    .map(|value| {
-                        let rounded = value.to_f64();
-                        [rounded, (value - T::from_f64(rounded)).to_f64()]
-                    })
-                    .collect(),
-            ),
+            _ => Self::Pairs(values.map(Real::halves).collect()),
         }
     }
 
@@ -225,7 +218,7 @@ impl Reals {
             }
             (Self::Double(values), "f64") => values.iter().copied().map(T::from_f64).collect(),
             (Self::Pairs(values), name) if !["f32", "f64"].contains(&name) => {
-                values.iter().map(|&[high, low]| T::from_f64(high) + T::from_f64(low)).collect()
+                values.iter().copied().map(T::from_halves).collect()
             }
             _ => return Err(Misfit("precision")),
         };

@@ -87,6 +87,24 @@ pub trait Real:
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
 
+    /// The nearest `f64`, and what that leaves out: all bits of a number of any precision of
+    /// this crate.
+    ///
+    /// ```
+    /// use carom::real::Real;
+    /// assert_eq!(0.5_f32.halves(), [0.5, 0.0]);
+    /// ```
+    #[inline(always)]
+    fn halves(self) -> [f64; 2] {
+        [self.to_f64(), 0.0]
+    }
+
+    /// The number of such [`halves`](Real::halves).
+    #[inline(always)]
+    fn from_halves([high, _]: [f64; 2]) -> Self {
+        Self::from_f64(high)
+    }
+
     /// The nearest number of another precision: the same number if that is no
     /// coarser.
     ///

@@ -30,7 +30,7 @@ use crate::vec3::Vec3;
 ///
 /// | At the top | Default | |
 /// |---|---|---|
-/// | `precision` | `"f64"` | or `"f32"` |
+/// | `precision` | `"f64"` | or `"f32"`, or `"dd"` with the feature `study` |
 /// | `engine` | `"event-driven"`; with a `[stepped]` table `"stepped"` | |
 /// | `duration` | | time; a run needs it |
 /// | `equilibrate` | 0 | time of a run before anything is measured |

@@ -6,6 +6,8 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::motion::Integrator;
+#[cfg(feature = "study")]
+use crate::real::DoubleDouble;
 use crate::real::Real;
 
 /// In which numbers a scene is computed.
@@ -26,6 +28,10 @@ pub enum Precision {
     /// Double precision, 53 binary digits.
     #[default]
     F64,
+    /// [Double-double](crate::DoubleDouble), 105 binary digits, at some forty times the cost.
+    #[cfg(feature = "study")]
+    #[cfg_attr(feature = "files", serde(rename = "dd"))]
+    DoubleDouble,
 }
 
 impl Precision {
@@ -35,6 +41,8 @@ impl Precision {
         match self {
             Self::F32 => f32::NAME,
             Self::F64 => f64::NAME,
+            #[cfg(feature = "study")]
+            Self::DoubleDouble => DoubleDouble::NAME,
         }
     }
 
@@ -44,6 +52,8 @@ impl Precision {
         match self {
             Self::F32 => f64::from(f32::EPSILON),
             Self::F64 => f64::EPSILON,
+            #[cfg(feature = "study")]
+            Self::DoubleDouble => DoubleDouble::EPSILON.high(),
         }
     }
 }

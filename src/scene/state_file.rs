@@ -281,12 +281,25 @@ fn add<T: Real, const N: usize>(
 fn number<T: Real>(field: &[u8]) -> Option<(T, f64)> {
     let text = core::str::from_utf8(field).ok()?.trim();
     let exact: f64 = text.parse().ok()?;
-    // Not by way of f64, which would round twice.
+    // Not by way of f64, which would round twice. With no more digits than an f64 it is one
+    // in every precision, as in the scene file.
     let nearest = match T::NAME {
         "f32" => T::from_f64(f64::from(text.parse::<f32>().ok()?)),
-        _ => T::from_f64(exact),
+        "f64" => T::from_f64(exact),
+        _ if digits(text) <= DIGITS => T::from_f64(exact),
+        _ => T::from_str_radix(text, 10).ok()?,
     };
     nearest.is_finite().then_some((nearest, exact))
+}
+
+/// The most decimal digits that an `f64` is known by.
+const DIGITS: usize = 17;
+
+/// How many digits a number is written with, those in front of its first one above 0 not
+/// counted.
+fn digits(text: &str) -> usize {
+    let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
+    mantissa.bytes().filter(u8::is_ascii_digit).skip_while(|digit| *digit == b'0').count()
 }
 
 /// A field in a message.

@@ -34,6 +34,7 @@ use crate::scene::{Precision, SceneFile};
 pub use measure::Measurement;
 pub use report::{Power, ScalingReport, SpeedUp};
 pub use settings::Settings;
+use settings::without_lanes;
 
 use measure::{Measured, Task};
 
@@ -136,6 +137,7 @@ impl Study for Scaling {
             Point::new(key, task.seconds(&probe), move || match precision {
                 Precision::F32 => task.measure::<f32>(),
                 Precision::F64 => task.measure::<f64>(),
+                Precision::DoubleDouble => Err(without_lanes()),
             })
         });
         Ok(points.collect())

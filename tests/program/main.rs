@@ -4,6 +4,7 @@ mod analyses;
 mod bad_input;
 mod batch;
 mod cases;
+mod double_double;
 mod ends;
 mod event_driven;
 mod files;

@@ -3,6 +3,7 @@
 
 use std::fs;
 
+use carom::DoubleDouble;
 use carom::bodies::Bodies;
 use carom::observe::state_hash;
 use carom::scene::{Buildable, SceneFile};
@@ -58,6 +59,7 @@ fn a_state_of_its_own_is_read_back_bit_by_bit() {
     }
     check::<f32>();
     check::<f64>();
+    check::<DoubleDouble>();
 }
 
 /// Columns in another order, with spaces and unknown ones among them; and the

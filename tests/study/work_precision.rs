@@ -3,11 +3,10 @@
 
 use carom::engine::Lanes;
 use carom::motion::Integrator;
-use carom::scene::Impact;
-use carom::scene::{Precision, SceneFile};
+use carom::scene::{EngineKind, Impact, Precision, SceneFile};
 use carom::study::chart::Look;
 use carom::study::work_precision::{
-    Asked, Family, Found, Quantity, Theory, WorkPrecision, WorkPrecisionReport,
+    Asked, Family, Found, Method, Outcome, Quantity, Theory, WorkPrecision, WorkPrecisionReport,
 };
 use carom::study::{Folder, Journal, Norm, Report, Study};
 
@@ -293,4 +292,74 @@ fn another_norm_needs_no_second_run() {
     let beyond = Asked { norm: Norm::Body(24), ..asked };
     let refused = WorkPrecision::new(&file, &beyond).map(drop).unwrap_err();
     assert!(refused.to_string().contains("no body 24"), "{refused}");
+}
+
+/// Double-double at exact times is the reference itself; its steps have errors of steps only.
+#[test]
+fn double_double_is_compared_in_steps() {
+    let asked = Asked {
+        precisions: vec![Precision::F64, Precision::DoubleDouble],
+        steps: vec![0.25 / 6.0, 0.25 / 13.0, 0.25 / 24.0, 0.25 / 50.0],
+        ..quick()
+    };
+    let report = study(&scene(THROW), &asked);
+    let is_said = |text: &String| text.contains("Event-driven dd is the reference itself");
+    assert_eq!(report.limits.iter().filter(|limit| is_said(limit)).count(), 1);
+    assert!(report.to_string().contains("Event-driven dd is the reference itself"));
+    // At the last of the times, by the way to move and the step.
+    let errors = |precision: Precision| -> Vec<(String, f64)> {
+        let methods = report.sweep.methods.iter().zip(&report.outcomes);
+        let of = methods.filter(|(method, _)| method.precision == precision);
+        let stepped = of.filter(|(method, _)| method.stepping.is_some());
+        let error = |(method, outcome): (&Method, &Outcome)| {
+            let name = method.to_string().replace(precision.name(), "");
+            (name, outcome.moments.last().unwrap().deviation.unwrap().position)
+        };
+        stepped.map(error).collect()
+    };
+    let (double, finer) = (errors(Precision::F64), errors(Precision::DoubleDouble));
+    assert_eq!((double.len(), finer.len()), (12, 12));
+    assert_eq!(report.sweep.methods.len(), 25, "event-driven dd is left out");
+    for ((name, double), (same, finer)) in double.into_iter().zip(finer) {
+        assert_eq!(name, same);
+        if name.starts_with("velocity Verlet") {
+            assert!(finer < 1e-28 && double > 1e-18, "{name}: {finer:e}, f64 {double:e}");
+        } else {
+            assert!((finer / double - 1.0).abs() < 1e-6, "{name}: {finer:e}, f64 {double:e}");
+        }
+    }
+    let (_, orders) = report.orders.iter().find(|(of, _)| *of == Quantity::Position).unwrap();
+    for order in orders.iter().filter(|order| order.family.precision == Precision::DoubleDouble) {
+        match (order.theory, order.found) {
+            (Theory::First, Found::Power(power)) => assert!((power.value - 1.0).abs() < 1e-3),
+            (Theory::Exact, Found::Rounding(worst)) => assert!(worst < 1e-28, "{worst:e}"),
+            other => panic!("{}: {other:?}", order.family),
+        }
+    }
+    // Alone it leaves nothing to compare.
+    let engines = vec![EngineKind::EventDriven];
+    let asked = Asked { engines, precisions: vec![Precision::DoubleDouble], ..quick() };
+    let error = WorkPrecision::new(&scene(THROW), &asked).err().unwrap().to_string();
+    assert!(error.starts_with("nothing is left to compare: event-driven dd"), "{error}");
+}
+
+/// With collisions, impacts inside the step are exact in it too.
+#[test]
+fn double_double_steps_through_collisions() {
+    let asked = Asked {
+        engines: vec![EngineKind::Stepped],
+        precisions: vec![Precision::DoubleDouble],
+        integrators: vec![Integrator::VelocityVerlet],
+        impacts: vec![Impact::SubStep],
+        steps: vec![0.008, 0.004, 0.002, 0.001],
+        ..quick()
+    };
+    let report = study(&scene(BOX), &asked);
+    for (method, outcome) in report.sweep.methods.iter().zip(&report.outcomes) {
+        let moment = outcome.moments.last().unwrap();
+        let error = moment.deviation.unwrap().position;
+        println!("{method}: {error:.1e} after {:.1} collisions of a body", moment.collisions);
+        assert!(error < 1e-24, "{method}: {error:e}");
+        assert_eq!(moment.collisions, moment.true_collisions);
+    }
 }

@@ -40,7 +40,7 @@ pub struct ErrorArguments {
     #[arg(long, value_name = "TIME,…", value_delimiter = ',', value_parser = positive)]
     dt: Vec<f64>,
 
-    /// Precisions [default: both]
+    /// Precisions; dd in steps only, since event-driven dd is the reference [default: f32,f64]
     #[arg(long, value_name = "P,…", value_delimiter = ',', value_parser = one_of(&PRECISIONS))]
     precision: Vec<Precision>,
 

@@ -7,7 +7,7 @@ use carom::study::scaling::{Scaling, Settings};
 use clap::Args;
 
 use super::{StudiedScene, StudyOutput};
-use crate::cli::arguments::{ENGINES, LANES, PRECISIONS, one_of, positive, threads};
+use crate::cli::arguments::{ENGINES, FAST_PRECISIONS, LANES, one_of, positive, threads};
 use crate::cli::failure::Failure;
 
 /// What `carom study scaling` takes.
@@ -31,7 +31,7 @@ pub struct ScalingArguments {
     bodies: Vec<u64>,
 
     /// In which numbers [default: f32,f64]
-    #[arg(long, value_delimiter = ',', value_parser = one_of(&PRECISIONS))]
+    #[arg(long, value_delimiter = ',', value_parser = one_of(&FAST_PRECISIONS))]
     precision: Vec<Precision>,
 
     /// Worker threads of the stepped engine [default: 1 and one for each core]

@@ -37,6 +37,9 @@ impl fmt::Display for Summary {
         for found in &self.analyses {
             writeln!(f, "{}", found.table())?;
         }
+        if let Some(conserved) = &self.all_digits {
+            writeln!(f, "{}", conserved.table())?;
+        }
         writeln!(f, "state hash  {}", self.state_hash)?;
         writeln!(f, "All quantities are in the scene's own units.")
     }

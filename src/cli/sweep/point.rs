@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
+use carom::DoubleDouble;
 use carom::engine::{Compiled, Event, Execution, World};
 use carom::observe::{Images, Temperature, fall_energy};
 use carom::real::Real;
@@ -31,6 +32,7 @@ pub struct Analysed<'a> {
 pub fn outcome(file: &SceneFile, execution: Execution, analysed: Analysed<'_>) -> Outcome {
     let run = match file.precision {
         Precision::F32 => run::<f32>(file, execution, analysed),
+        Precision::DoubleDouble => run::<DoubleDouble>(file, execution, analysed),
         _ => run::<f64>(file, execution, analysed),
     };
     match run {
@@ -43,6 +45,7 @@ pub fn outcome(file: &SceneFile, execution: Execution, analysed: Analysed<'_>) -
 pub fn check(file: &SceneFile, execution: Execution) -> Result<(), Failure> {
     match file.precision {
         Precision::F32 => check_in::<f32>(file, execution),
+        Precision::DoubleDouble => check_in::<DoubleDouble>(file, execution),
         _ => check_in::<f64>(file, execution),
     }
 }
@@ -121,6 +124,7 @@ fn run<T: Compiled>(
         bodies: &bodies,
         course,
         before,
+        start: None,
         fall,
         equilibration,
         measured: &measured,

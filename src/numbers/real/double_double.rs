@@ -1,12 +1,16 @@
 //! Double-double: a precision of 105 binary digits, for reference solutions.
 
+mod decimal;
+
 use core::cmp::Ordering;
 use core::fmt;
+use core::num::ParseFloatError;
 use core::ops::{Add, Div, Mul, Neg, Rem, Sub};
+use core::str::FromStr;
 use std::sync::LazyLock;
 
 use faer::fx128;
-use num_traits::{Num, One, Zero};
+use num_traits::{FloatErrorKind, Num, One, Zero};
 
 use super::Real;
 use crate::lane::Lane;
@@ -29,6 +33,8 @@ use crate::lane::Lane;
 /// let third = DoubleDouble::ratio(1, 3);
 /// let rest = third + third + third - DoubleDouble::ONE;
 /// assert!(rest.high().abs() < 1e-31);
+/// assert!(third.to_string().starts_with("0.3333333333333333333333333333333"));
+/// assert_eq!(third.to_string().parse(), Ok(third));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoubleDouble(fx128);
@@ -103,9 +109,24 @@ impl PartialOrd for DoubleDouble {
     }
 }
 
+/// The decimal digits that read back as the same number: 32 or 33 of most, more where the
+/// second half is 0 or small, such as that of `0.1_f64`. With a precision, those of the
+/// nearest `f64`.
 impl fmt::Display for DoubleDouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{:+}", self.0.0, self.0.1)
+        match f.precision() {
+            Some(_) => self.high().fmt(f),
+            None => f.pad(&decimal::text(self.halves())),
+        }
+    }
+}
+
+/// The nearest double-double, of any number of digits.
+impl FromStr for DoubleDouble {
+    type Err = ParseFloatError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        decimal::halves(text).map(Self::from_halves)
     }
 }
 
@@ -132,10 +153,15 @@ impl One for DoubleDouble {
 }
 
 impl Num for DoubleDouble {
-    type FromStrRadixErr = <fx128 as Num>::FromStrRadixErr;
+    type FromStrRadixErr = num_traits::ParseFloatError;
 
+    // Of ten digits only: nothing is written in any other.
     fn from_str_radix(text: &str, radix: u32) -> Result<Self, Self::FromStrRadixErr> {
-        fx128::from_str_radix(text, radix).map(Self)
+        let invalid = || num_traits::ParseFloatError { kind: FloatErrorKind::Invalid };
+        if radix != 10 {
+            return Err(invalid());
+        }
+        text.parse().map_err(|_| invalid())
     }
 }
 
@@ -227,7 +253,7 @@ impl Real for DoubleDouble {
     type Coarse = f64;
     type Block = Self;
 
-    const NAME: &'static str = "double-double";
+    const NAME: &'static str = "dd";
     const EPSILON: Self = Self::new(f64::EPSILON * f64::EPSILON, 0.0);
     const ROUNDING_MAGIC: Self = Self::ZERO;
     const WHOLE_FROM: Self = Self::new(1.0 / (f64::EPSILON * f64::EPSILON), 0.0);
@@ -262,6 +288,14 @@ impl Real for DoubleDouble {
         self.0.0
     }
 
+    fn halves(self) -> [f64; 2] {
+        [self.high(), self.low()]
+    }
+
+    fn from_halves([high, low]: [f64; 2]) -> Self {
+        Self::new(high, low)
+    }
+
     fn cast<B: Real>(self) -> B {
         let high = B::from_f64(self.high());
         // Nothing to add keeps the sign of −0, and infinity.
@@ -286,6 +320,7 @@ impl Real for DoubleDouble {
 
     fn write_bits(self, bytes: &mut Vec<u8>) {
         bytes.extend_from_slice(&self.0.0.to_le_bytes());
-        bytes.extend_from_slice(&self.0.1.to_le_bytes());
+        // Of a second half of 0 the sign says nothing: the bits are those of the number.
+        bytes.extend_from_slice(&(self.0.1 + 0.0).to_le_bytes());
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::{EVENT_COLUMNS, check_finite};
 use crate::engine::{Event, Partner};
+use crate::output::is_single;
 use crate::output::npz::{Archive, NpzColumn};
 use crate::real::Real;
 
@@ -70,7 +71,7 @@ impl<W: Write> EventArrays<W> {
 
     fn add<T: Real>(&mut self, event: &Event<T>) -> io::Result<()> {
         check_finite(event)?;
-        self.precision = if T::NAME == f32::NAME { "<f4" } else { "<f8" };
+        self.precision = if is_single::<T>()? { "<f4" } else { "<f8" };
         let nothing = [T::from_f64(f64::NAN); 3];
         let (partner, velocity, spin) = match event.partner {
             Partner::Body { index, velocity, spin } => {

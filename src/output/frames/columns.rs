@@ -7,6 +7,7 @@ use super::Frame;
 use super::figures::quaternion_of;
 use crate::bodies::PerBody;
 use crate::observe::species;
+use crate::output::is_single;
 use crate::output::npz::{Archive, NpzColumn, store_array};
 use crate::real::Real;
 
@@ -49,7 +50,7 @@ impl<W: Write> NumPy<W> {
 
     pub fn write<T: Real>(&mut self, frame: &Frame<'_, T>) -> io::Result<()> {
         let bodies = frame.bodies;
-        self.precision = if T::NAME == f32::NAME { "<f4" } else { "<f8" };
+        self.precision = if is_single::<T>()? { "<f4" } else { "<f8" };
         self.bodies = bodies.len();
         self.frames += 1;
         self.corners = frame.space.map(|space| {

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::super::{Listed, WholeFile};
+use super::super::{Listed, WholeFile, is_single};
 use super::Frame;
 use super::figures::quaternion_of;
 use crate::observe::species;
@@ -48,6 +48,7 @@ impl<W: io::Write> ParaView<W> {
 
     /// Writes one frame into a file of its own.
     pub fn write<T: Real>(&mut self, frame: &Frame<'_, T>) -> io::Result<()> {
+        is_single::<T>()?;
         let mut name = self.path.file_stem().map_or_else(OsString::new, OsString::from);
         name.push(format!("_{:06}.vtp", self.frames.len()));
         let path = self.path.with_file_name(&name);

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::settings::without_lanes;
 use crate::engine::{Compiled, Execution, World};
 use crate::observe::{Totals, state_hash};
 use crate::real::Real;
@@ -80,6 +81,7 @@ impl Task<'_> {
         match precision {
             Precision::F32 => self.probed_in::<f32>(),
             Precision::F64 => self.probed_in::<f64>(),
+            Precision::DoubleDouble => Err(without_lanes()),
         }
     }
 

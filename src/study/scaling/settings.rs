@@ -67,6 +67,9 @@ impl Settings {
         if let Some(threads) = self.threads.iter().find(|n| !(1..=MOST_THREADS).contains(*n)) {
             return refused(format!("{threads} threads: give numbers from 1 to {MOST_THREADS}"));
         }
+        if self.precisions.contains(&Precision::DoubleDouble) {
+            return Err(without_lanes());
+        }
         if !(1..=MOST_RUNS).contains(&self.runs) {
             return refused(format!("{} runs: give a number from 1 to {MOST_RUNS}", self.runs));
         }
@@ -93,6 +96,13 @@ impl Settings {
             .chain(others.iter().map(|&lanes| Execution::new().threads(threads).lanes(lanes)))
             .collect()
     }
+}
+
+/// What a scaling study says to double-double.
+pub(super) fn without_lanes() -> StudyError {
+    let reason = "a scaling study is of f32 and f64: dd has no lanes, and takes some forty times as \
+                  long";
+    StudyError::Asked(reason.to_owned())
 }
 
 /// Without what was there before.

@@ -185,8 +185,8 @@ fn picture(curves: &[Curve]) -> Picture {
             let color = match (curve.precision, is_rough) {
                 (Precision::F32, false) => 4,
                 (Precision::F32, true) => 1,
-                (Precision::F64, false) => 5,
-                (Precision::F64, true) => 0,
+                (_, false) => 5,
+                (_, true) => 0,
             };
             let surface = if is_rough { Surface::Rough } else { Surface::Smooth };
             let name = format!("{}, {surface}", curve.precision);

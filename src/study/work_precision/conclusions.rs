@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::method::{Family, Method};
 use super::quantity::Quantity;
 use crate::motion::Integrator;
-use crate::scene::Impact;
+use crate::scene::{Impact, Precision};
 use crate::study::fit::{Estimate, common_power};
 
 /// A method with its time and its error at the last of the times.
@@ -112,6 +112,7 @@ pub(super) fn orders(
     let order = |family: Family| {
         let exact = Family { stepping: None, ..family };
         let epsilon = family.precision.epsilon();
+        let is_reference = family.precision == Precision::DoubleDouble;
         let (mut telling, mut worst) = (Vec::<Vec<(f64, f64)>>::new(), 0.0);
         let mut any_above = false;
         let theory = Theory::of(&family, motion, quantity);
@@ -119,7 +120,14 @@ pub(super) fn orders(
             let of = |wanted: Family| {
                 results.iter().filter(move |result| result.method.family() == wanted)
             };
-            let rounding = of(exact).map(|result| result.error).fold(epsilon * size, f64::max);
+            // The reference is no method: what it would be off by is in proportion to others.
+            let like_exact = results.iter().filter(|result| result.method.stepping.is_none());
+            let like_exact = like_exact.filter_map(|result| {
+                let Family { precision, .. } = result.method.family();
+                let part = epsilon / precision.epsilon();
+                (precision == exact.precision || is_reference).then_some(result.error * part)
+            });
+            let rounding = like_exact.fold(epsilon * size, f64::max);
             let is_above = |error: f64| error > ABOVE_ROUNDING * rounding;
             let mut points: Vec<(f64, f64)> = of(family)
                 .filter_map(|result| result.method.stepping.map(|s| (s.dt, result.error)))
@@ -196,7 +204,6 @@ pub(super) fn size(quantity: Quantity, length: f64, speed: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Precision;
     use crate::study::work_precision::method::Stepping;
 
     fn result(dt: Option<f64>, seconds: f64, error: f64) -> Judged {

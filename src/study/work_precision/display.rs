@@ -95,7 +95,7 @@ impl WorkPrecisionReport {
         let mut table = Table::default();
         let columns: Vec<(bool, Precision)> = [(false, Precision::F32), (false, Precision::F64)]
             .into_iter()
-            .chain([(true, Precision::F32), (true, Precision::F64)])
+            .chain([Precision::F32, Precision::F64, Precision::DoubleDouble].map(|p| (true, p)))
             .filter(|(stepped, precision)| {
                 self.sweep.methods.iter().any(|method| {
                     method.stepping.is_some() == *stepped && method.precision == *precision

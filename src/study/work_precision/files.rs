@@ -144,6 +144,7 @@ impl WorkPrecisionReport {
         let shape = |precision| match precision {
             Precision::F32 => Shape::Square,
             Precision::F64 => Shape::Disc,
+            Precision::DoubleDouble => Shape::Triangle,
         };
         let mut series = self.guides(&all_points().collect::<Vec<_>>());
         series.extend(families.iter().filter(|family| is_shown(family)).map(|family| {
@@ -199,10 +200,10 @@ impl WorkPrecisionReport {
             return guides;
         };
         let end = positive.copied().fold(start, |a, b| (a.0.max(b.0), a.1.min(b.1)));
-        for (name, epsilon) in [("ε of f32", f64::from(f32::EPSILON)), ("ε of f64", f64::EPSILON)]
-        {
+        for precision in [Precision::F32, Precision::F64, Precision::DoubleDouble] {
+            let (name, epsilon) = (format!("ε of {precision}"), precision.epsilon());
             if end.1 <= epsilon && epsilon <= start.1 {
-                guide(name, [(start.0, epsilon), (end.0, epsilon)]);
+                guide(&name, [(start.0, epsilon), (end.0, epsilon)]);
             }
         }
         if self.families().iter().any(|family| family.stepping.is_some()) {

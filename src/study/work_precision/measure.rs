@@ -7,7 +7,7 @@ use super::reference::{Reference, collisions_of_a_body};
 use super::sweep::Sweep;
 use crate::engine::{Compiled, EngineError, Execution, World};
 use crate::observe::{StateHash, state_hash};
-use crate::real::Real;
+use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
 use crate::study::clock::{Timing, Variant, outlook, rounds, seconds};
 use crate::study::deviation::{Deviation, Errors};
@@ -75,6 +75,7 @@ pub(super) fn measure(
     match method.precision {
         Precision::F32 => measure_in::<f32>(file, method, sweep, reference),
         Precision::F64 => measure_in::<f64>(file, method, sweep, reference),
+        Precision::DoubleDouble => measure_in::<DoubleDouble>(file, method, sweep, reference),
     }
 }
 
@@ -152,6 +153,7 @@ pub(super) fn probe(file: &SceneFile, method: &Method, end: f64) -> Result<f64, 
     match method.precision {
         Precision::F32 => probe_in::<f32>(file, method, end),
         Precision::F64 => probe_in::<f64>(file, method, end),
+        Precision::DoubleDouble => probe_in::<DoubleDouble>(file, method, end),
     }
 }
 

@@ -45,6 +45,11 @@ impl Method {
         Family { precision: self.precision, stepping }
     }
 
+    /// Whether it is what all others are measured by.
+    pub(super) fn is_reference(&self) -> bool {
+        self.precision == Precision::DoubleDouble && self.stepping.is_none()
+    }
+
     /// What its point is called: with all digits of its step.
     pub(super) fn key(&self) -> String {
         match self.stepping {
@@ -85,7 +90,8 @@ impl Method {
             Some(Stepping { dt, .. }) => {
                 let time = (stated / dt).round().max(1.0) * dt;
                 // Steps that should end there do, but for a rounding.
-                let is_there = (time - stated).abs() <= 4.0 * f64::EPSILON * stated;
+                let is_there = self.precision != Precision::DoubleDouble
+                    && (time - stated).abs() <= 4.0 * f64::EPSILON * stated;
                 if is_there { stated } else { time }
             }
         }

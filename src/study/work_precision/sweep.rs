@@ -119,19 +119,31 @@ impl Sweep {
         let mut methods = Vec::new();
         for &precision in &precisions {
             if engines.contains(&EngineKind::EventDriven) {
-                methods.push(Method { precision, stepping: None });
+                let exact = Method { precision, stepping: None };
+                if exact.is_reference() {
+                    notes.push(THE_REFERENCE.to_owned());
+                } else {
+                    methods.push(exact);
+                }
             }
             if !engines.contains(&EngineKind::Stepped) {
                 continue;
             }
             for &integrator in &integrators {
                 for &impact in &impacts {
-                    methods.extend(steps.iter().map(|&dt| Method {
-                        precision,
-                        stepping: Some(Stepping { integrator, impact, dt }),
+                    methods.extend(steps.iter().map(|&dt| {
+                        let is_finest = precision == Precision::DoubleDouble;
+                        let dt = if is_finest { short(dt) } else { dt };
+                        Method { precision, stepping: Some(Stepping { integrator, impact, dt }) }
                     }));
                 }
             }
+        }
+        if methods.is_empty() {
+            return Err(StudyError::Asked(format!(
+                "nothing is left to compare: {}",
+                THE_REFERENCE.replacen('E', "e", 1)
+            )));
         }
         let runs = asked.runs.unwrap_or(5);
         if runs == 0 || runs > MOST {
@@ -140,6 +152,20 @@ impl Sweep {
         Ok(Self { times, methods, executions: executions(asked), runs, notes })
     }
 }
+
+/// A step of 26 binary digits, whose multiples up to 2²⁷ are exact: times are `f64`, and a
+/// rounded end of a step would be an error of 10⁻¹⁶ in itself.
+fn short(dt: f64) -> f64 {
+    const LEFT_OUT: u64 = 27;
+    let half = 1 << (LEFT_OUT - 1);
+    f64::from_bits((dt.to_bits() + half) >> LEFT_OUT << LEFT_OUT)
+}
+
+/// Why a method is left out.
+const THE_REFERENCE: &str = "Event-driven dd is the reference itself, and has no error to show: dd \
+                             is compared in steps only, whose errors are those of the steps down to \
+                             some 1e-30. Its steps are rounded to 26 binary digits, so that they \
+                             end at times of f64.";
 
 /// The most errors of single bodies that a journal keeps: 160 MB of its text.
 const MOST_KEPT: usize = 20_000_000;
