@@ -5,6 +5,7 @@ mod analyses;
 mod arguments;
 mod asked;
 mod batch;
+mod boxes;
 mod closed_output;
 mod conclusion;
 mod events;

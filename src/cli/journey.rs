@@ -12,6 +12,7 @@ use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::analyses::{Analyses, Found};
+use super::boxes::Boxes;
 use super::events::Events;
 use super::failure::Failure;
 use super::interrupt;
@@ -63,8 +64,8 @@ pub struct Journey<T: Real> {
     /// What the figures of the summary are taken from.
     measured: Measured,
     /// In a periodic box, where bodies are in the space that it stands for, if that is
-    /// written, and where to look at them next.
-    images: Option<(Images<T>, f64)>,
+    /// written.
+    boxes: Option<Boxes<T>>,
 }
 
 impl<T: Real> Journey<T> {
@@ -76,26 +77,19 @@ impl<T: Real> Journey<T> {
         energy: (Energy, f64),
         measured: Measured,
     ) -> Self {
-        Self { course, busy: Duration::ZERO, space, energy, measured, images: None }
+        Self { course, busy: Duration::ZERO, space, energy, measured, boxes: None }
     }
 
     /// Keeps count of the boxes that bodies move through, from now on; `counted` are those
     /// of a run that goes on.
     pub fn count_images(&mut self, world: &World<T>, counted: Option<&Vec<[i32; 3]>>) {
-        let Some(space) = self.space else { return };
-        let bodies = world.bodies();
-        let images = Images::new(space, &bodies);
-        let images = match counted.filter(|counted| counted.len() == images.counts().len()) {
-            Some(counted) => images.after(counted.clone()),
-            None => images,
-        };
-        let look = self.course.after(world, images.next_look(&bodies, world.gravity()));
-        self.images = Some((images, look));
+        let boxes = |space| Boxes::new(space, world, &self.course, counted);
+        self.boxes = self.space.map(boxes);
     }
 
     /// The periodic box, and the boxes that bodies have moved through.
     pub fn space(&self) -> (Option<PeriodicBox<T>>, Option<&Images<T>>) {
-        (self.space, self.images.as_ref().map(|(images, _)| images))
+        (self.space, self.boxes.as_ref().map(Boxes::images))
     }
 
     /// Goes all the way, and writes what is to be written.
@@ -190,13 +184,13 @@ impl<T: Real> Journey<T> {
         if !is_end && asked.is_none() && !keeper.is_due(Course::position(world)) {
             return Ok(());
         }
-        if let Some((images, _)) = &mut self.images {
-            images.look(&world.bodies());
+        if let Some(boxes) = &mut self.boxes {
+            boxes.look(world, &world.bodies(), &self.course);
         }
         let notes = Notes {
             length: self.course.length(),
             measured: self.measured.clone(),
-            images: self.images.as_ref().map(|(images, _)| images.counts().to_vec()),
+            images: self.boxes.as_ref().map(|boxes| boxes.images().counts().to_vec()),
             events: events.as_mut().map(Events::keep).transpose()?,
             record: record.as_mut().map(Recorder::keep).transpose()?,
             series: series.as_mut().map(Series::keep).transpose()?,
@@ -210,7 +204,7 @@ impl<T: Real> Journey<T> {
     fn mark(&self, on_the_way: &OnTheWay) -> f64 {
         let length = self.course.length();
         let measure = self.measured.mark(length);
-        let look = self.images.as_ref().map(|(_, look)| *look);
+        let look = self.boxes.as_ref().map(Boxes::next);
         let frame = on_the_way.record.as_ref().and_then(Recorder::mark);
         let row = on_the_way.series.as_ref().and_then(Series::mark);
         let kept = on_the_way.keeper.as_ref().and_then(Keeper::mark);
@@ -232,13 +226,11 @@ impl<T: Real> Journey<T> {
             self.measured.take(world, position, || Temperature::of(bodies()));
         }
         let is_read = record.is_some() || series.is_some() || is_analysed || position >= length;
-        let images = self.images.as_mut().filter(|(_, look)| is_read || *look <= position);
-        if let Some((images, look)) = images {
-            let bodies = bodies();
-            images.look(bodies);
-            *look = self.course.after(world, images.next_look(bodies, world.gravity()));
+        let boxes = self.boxes.as_mut().filter(|boxes| is_read || boxes.next() <= position);
+        if let Some(boxes) = boxes {
+            boxes.look(world, bodies(), &self.course);
         }
-        let images = self.images.as_ref().map(|(images, _)| images);
+        let images = self.boxes.as_ref().map(Boxes::images);
         if let Some(record) = record {
             record.write(world, bodies(), self.space, images)?;
         }

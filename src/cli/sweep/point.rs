@@ -5,14 +5,13 @@ use std::time::Instant;
 
 use carom::DoubleDouble;
 use carom::engine::{Compiled, Event, Execution, World};
-use carom::observe::{Images, Temperature, fall_energy};
-use carom::real::Real;
+use carom::observe::{Temperature, fall_energy};
 use carom::scene::{Precision, SceneFile};
-use carom::space::PeriodicBox;
 use carom::study::Course;
 
 use super::figures::Outcome;
 use crate::cli::analyses::{Analyses, AskedAnalysis, of_one_run};
+use crate::cli::boxes::Boxes;
 use crate::cli::conclusion::Ended;
 use crate::cli::failure::Failure;
 use crate::cli::measured::Measured;
@@ -83,8 +82,8 @@ fn run<T: Compiled>(
     let mut measured = Measured::new(&world, &course, equilibration, gas);
     let files = asked.iter().map(|asked| OutputFile::open(&asked.path));
     let files = files.collect::<Result<Vec<_>, _>>()?;
-    let mut images =
-        space.filter(|_| !asked.is_empty()).map(|space| Boxes::new(space, &world, &course));
+    let analysed_space = space.filter(|_| !asked.is_empty());
+    let mut boxes = analysed_space.map(|space| Boxes::new(space, &world, &course, None));
     let mut analyses = Analyses::new(asked, files, (&world, &course), equilibration, None);
     let setup_seconds = start.elapsed().as_secs_f64();
     let start = Instant::now();
@@ -94,18 +93,18 @@ fn run<T: Compiled>(
             measured.take(&world, position, || Temperature::of(&world.bodies()));
         }
         let is_analysed = analyses.mark() == Some(position);
-        if let Some(images) = &mut images {
-            images.look(&world, &course, is_analysed);
+        if let Some(boxes) = boxes.as_mut().filter(|it| is_analysed || it.next() <= position) {
+            boxes.look(&world, &world.bodies(), &course);
         }
         if is_analysed {
-            let images = images.as_ref().map(|boxes| &boxes.images);
+            let images = boxes.as_ref().map(Boxes::images);
             analyses.look(&world, &world.bodies(), space, images);
         }
         if position >= course.length() {
             break;
         }
         let marks =
-            [measured.mark(course.length()), analyses.mark(), images.as_ref().map(|it| it.next)];
+            [measured.mark(course.length()), analyses.mark(), boxes.as_ref().map(Boxes::next)];
         let mark = marks.into_iter().flatten().fold(course.length(), f64::min);
         let hears = analyses.hears();
         let mut hear = |event: &Event<T>| analyses.hear(event);
@@ -133,29 +132,4 @@ fn run<T: Compiled>(
         seconds: [setup_seconds, start.elapsed().as_secs_f64()],
     };
     Ok(Outcome::of(&ended.summary()?).with_found(&found, names))
-}
-
-/// The boxes of a periodic space that bodies move through.
-struct Boxes<T: Real> {
-    images: Images<T>,
-    /// Where the bodies are to be looked at next.
-    next: f64,
-}
-
-impl<T: Real> Boxes<T> {
-    fn new(space: PeriodicBox<T>, world: &World<T>, course: &Course) -> Self {
-        let bodies = world.bodies();
-        let images = Images::new(space, &bodies);
-        let next = course.after(world, images.next_look(&bodies, world.gravity()));
-        Self { images, next }
-    }
-
-    /// Looks at the bodies, if that is due or asked for.
-    fn look(&mut self, world: &World<T>, course: &Course, is_asked: bool) {
-        if is_asked || self.next <= Course::position(world) {
-            let bodies = world.bodies();
-            self.images.look(&bodies);
-            self.next = course.after(world, self.images.next_look(&bodies, world.gravity()));
-        }
-    }
 }
