@@ -101,10 +101,11 @@ impl<T: Real> Survey<T> {
     pub(super) fn find_contacts(&self, gap: T) -> Vec<Contact<T>> {
         let mut found = Vec::new();
         let mut near = Vec::new();
+        let images = self.spheres.periodic().map_or_else(|| vec![Vec3::ZERO], Space::images);
         for a in 0..self.spheres.len() as u32 {
             let (center, radius) = self.spheres.sphere(a);
             if self.encounters != Encounters::None {
-                self.beside_parts(a, gap, &mut found);
+                self.beside_parts(a, gap, &images, &mut found);
             }
             if self.encounters != Encounters::All {
                 continue;
@@ -132,11 +133,10 @@ impl<T: Real> Survey<T> {
     }
 
     /// The parts that a body is beside, each by its nearest feature.
-    fn beside_parts(&self, a: u32, gap: T, found: &mut Vec<Contact<T>>) {
+    fn beside_parts(&self, a: u32, gap: T, images: &[Vec3<T>], found: &mut Vec<Contact<T>>) {
         let (center, radius) = self.spheres.sphere(a);
         let first = found.len();
-        let images = self.spheres.periodic().map_or_else(|| vec![Vec3::ZERO], Space::images);
-        for image in images {
+        for &image in images {
             self.obstacles.for_each_beside((center + image, radius), gap, |part, clearance| {
                 let partner = Touched::Part(part);
                 let of_part = found[first..].iter_mut().find(|other| other.partner == partner);

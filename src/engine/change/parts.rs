@@ -46,15 +46,9 @@ impl<T: Real> ChangedParts<T> {
         self.before + self.added.len()
     }
 
-    fn handle_of(&self, part: usize) -> Option<PartHandle> {
-        let handles = || Handles::new(self.before);
-        self.handles.as_ref().map_or_else(|| handles().of_part(part), |it| it.of_part(part))
-    }
-
-    fn index_of(&self, handle: PartHandle) -> Option<usize> {
-        let handles = || Handles::new(self.before);
-        let of = |it: &Handles| it.index_of_part(handle);
-        self.handles.as_ref().map_or_else(|| of(&handles()), of)
+    /// Asks the handles of the parts in the change.
+    fn ask<V>(&self, ask: impl FnOnce(&Handles) -> V) -> V {
+        ask_handles(self.handles.as_ref(), self.before, ask)
     }
 
     /// Gives a scene the parts as they are changed.
@@ -88,6 +82,14 @@ impl<T: Real> ChangedParts<T> {
             }
         }
         NewParts { handles: Some(handles), kept: Some(KeptParts(kept)), is_added }
+    }
+}
+
+/// Asks the handles of parts: as long as none was changed they are the indices.
+fn ask_handles<V>(handles: Option<&Handles>, parts: usize, ask: impl FnOnce(&Handles) -> V) -> V {
+    match handles {
+        Some(handles) => ask(handles),
+        None => ask(&Handles::new(parts)),
     }
 }
 
@@ -178,13 +180,13 @@ impl<T: Real> Change<'_, T> {
     /// The name of a part of this change, which it has in the world from then on.
     #[must_use]
     pub fn part_handle_of(&self, part: usize) -> Option<PartHandle> {
-        self.parts.handle_of(part)
+        self.parts.ask(|handles| handles.of_part(part))
     }
 
     /// The index that a part of this name has in this change, if there is one.
     #[must_use]
     pub fn part_index_of(&self, handle: PartHandle) -> Option<usize> {
-        self.parts.index_of(handle)
+        self.parts.ask(|handles| handles.index_of_part(handle))
     }
 }
 
@@ -219,17 +221,18 @@ impl<T: Real> World<T> {
     /// added or removed; `None` if there is no such part.
     #[must_use]
     pub fn part_handle_of(&self, part: usize) -> Option<PartHandle> {
-        self.changed_parts().handle_of(part)
+        self.ask_parts(|handles| handles.of_part(part))
     }
 
     /// The index of the part of this name now; `None` if it was removed.
     #[must_use]
     pub fn part_index_of(&self, handle: PartHandle) -> Option<usize> {
-        self.changed_parts().index_of(handle)
+        self.ask_parts(|handles| handles.index_of_part(handle))
     }
 
-    fn changed_parts(&self) -> ChangedParts<T> {
-        self.base().changed_parts()
+    fn ask_parts<V>(&self, ask: impl FnOnce(&Handles) -> V) -> V {
+        let base = self.base();
+        ask_handles(base.part_handles.as_ref(), base.scene.surroundings.len(), ask)
     }
 }
 
