@@ -458,7 +458,7 @@ impl<T: Real> Batch<T> {
     /// ```
     pub fn observe<R: Send>(&self, of: impl Fn(usize, &Bodies<T>) -> R + Sync) -> Vec<Option<R>> {
         let mut all: Vec<_> = (0..self.len()).map(|scene| (scene, None)).collect();
-        self.workers.spread(&mut all, |(scene, observed)| {
+        self.workers.each(&mut all, |(scene, observed)| {
             *observed = self.bodies(*scene).map(|bodies| of(*scene, &bodies));
         });
         all.into_iter().map(|(_, observed)| observed).collect()
