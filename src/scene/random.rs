@@ -7,6 +7,7 @@
 //! random digits, 1951) gives exponential ones, and a uniform direction in the
 //! plane does the rest.
 
+use crate::numbers::array;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -125,7 +126,7 @@ impl Random {
 
     /// Three independent normal deviates.
     pub(super) fn normal3(&mut self) -> [f64; 3] {
-        core::array::from_fn(|_| self.normal())
+        array::from_fn(|_| self.normal())
     }
 }
 

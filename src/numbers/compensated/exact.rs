@@ -1,6 +1,7 @@
 //! Exact sum: the sum of doubles, whatever their order.
 
 #[cfg(feature = "files")]
+use crate::numbers::array::Each;
 use serde::{Deserialize, Serialize};
 
 /// Binary digits of a limb.
@@ -121,7 +122,7 @@ impl ExactSum {
         digits |= u128::from(limbs[..lowest].iter().any(|&limb| limb != 0));
         let exponent = (DIGITS as usize * lowest) as i32 - 1074;
         // In two steps: one power of two may be out of range.
-        let [one, other] = [exponent / 2, exponent - exponent / 2].map(|k| 2.0_f64.powi(k));
+        let [one, other] = [exponent / 2, exponent - exponent / 2].each(|k| 2.0_f64.powi(k));
         let magnitude = digits as f64 * one * other;
         if is_negative { -magnitude } else { magnitude }
     }

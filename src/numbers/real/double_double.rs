@@ -271,10 +271,12 @@ impl Real for DoubleDouble {
     fn inverse_factorials() -> &'static [Self] {
         static TABLE: LazyLock<[DoubleDouble; 30]> = LazyLock::new(|| {
             let mut factorial = DoubleDouble::ONE;
-            core::array::from_fn(|n| {
-                factorial = factorial * DoubleDouble::whole(n.max(1) as i32);
-                DoubleDouble::ONE / factorial
-            })
+            let mut table = [DoubleDouble::ONE; 30];
+            for (inverse, n) in table[1..].iter_mut().zip(1..) {
+                factorial = factorial * DoubleDouble::whole(n);
+                *inverse = DoubleDouble::ONE / factorial;
+            }
+            table
         });
         &*TABLE
     }
