@@ -7,9 +7,10 @@
 //! random digits, 1951) gives exponential ones, and a uniform direction in the
 //! plane does the rest.
 
-use crate::numbers::array;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use crate::numbers::array;
 
 /// What a stream of random numbers is for. Each has its own, so that a change
 /// of temperature moves no body.

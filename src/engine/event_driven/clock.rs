@@ -7,6 +7,7 @@ use super::calendar::Turn;
 use crate::compensated::CompensatedSum;
 #[cfg(feature = "files")]
 use crate::engine::snapshot::{Misfit, Reals};
+#[cfg(feature = "files")]
 use crate::numbers::array;
 use crate::real::Real;
 

@@ -1,8 +1,9 @@
 //! Exact sum: the sum of doubles, whatever their order.
 
 #[cfg(feature = "files")]
-use crate::numbers::array::Each;
 use serde::{Deserialize, Serialize};
+
+use crate::numbers::array::Each;
 
 /// Binary digits of a limb.
 const DIGITS: u32 = 32;

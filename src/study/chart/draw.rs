@@ -1,13 +1,13 @@
 //! Draw: charts on a canvas.
 
-use super::axis::{Divided, Tick};
-use crate::numbers::array::Each;
 use plotters::prelude::DrawingBackend;
 
+use super::axis::{Divided, Tick};
 use super::canvas::{Anchor, Canvas, Place};
 use super::look::{Color, Look};
 use super::text::{CAPITAL, fitting, width};
 use super::{Chart, Mark, Picture, Series, Shape};
+use crate::numbers::array::Each;
 
 /// Sizes of the font, pixels: of titles, what an axis shows, its numbers, the legend, and
 /// the names of guides.
