@@ -120,8 +120,8 @@ pub struct Remainders<'a, T> {
 /// let (mut low, mut none) = ([[0.0]; 3], [[]; 3]);
 /// for _ in 0..100_000 {
 ///     let remainders = Remainders {
-///         position: low.muts().each(|column| column.as_mut_slice()),
-///         velocity: none.muts().each(|column: &mut [f32; 0]| column.as_mut_slice()),
+///         position: low.each_mut().map(|column| column.as_mut_slice()),
+///         velocity: none.each_mut().map(|column: &mut [f32; 0]| column.as_mut_slice()),
 ///     };
 ///     compensated_flight_and_fastest::<f32, Coasting, _>(
 ///         [&mut x, &mut y, &mut z],

@@ -19,7 +19,7 @@ use crate::vec3::Vec3;
 /// let still = [0.0_f32; 5];
 /// let spin = [core::f32::consts::PI; 5];
 /// let mut m = [[1.0_f32; 5], still, still, still, [1.0; 5], still, still, still, [1.0; 5]];
-/// turn::<wide::f32x4>(m.muts().each(|column| column.as_mut_slice()), [&still, &still, &spin], 1.0);
+/// turn::<wide::f32x4>(m.each_mut().map(|column| column.as_mut_slice()), [&still, &still, &spin], 1.0);
 /// // Half a turn about z.
 /// assert!(m[0].iter().all(|xx| (xx + 1.0).abs() < 1e-6));
 /// assert_eq!(m[8], [1.0; 5]);
