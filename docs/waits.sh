@@ -58,11 +58,11 @@ if [ "${1:-}" = --release ]; then
     exit
 fi
 rm -rf "$CARGO_TARGET_DIR"
-wait_for 'fresh `cargo test --no-run`' cargo test --locked --no-run --timings
+wait_for 'fresh `cargo test --release --no-run`' cargo test --locked --release --no-run --timings
 tests=$(units 16)
-wait_for 'the tests themselves' cargo test --locked
+wait_for 'the tests themselves' cargo test --locked --release
 change src/cli/run.rs
-wait_for '`cargo test --no-run` after a line in the program' cargo test --locked --no-run
+wait_for '`cargo test --release --no-run` after a line in the program' cargo test --locked --release --no-run
 change src/engine/event_driven/search.rs
-wait_for '`cargo test --no-run` after a line in an engine' cargo test --locked --no-run
+wait_for '`cargo test --release --no-run` after a line in an engine' cargo test --locked --release --no-run
 printf '\nUnits of the fresh program:\n%s\n\nUnits of the fresh tests:\n%s\n' "$fresh" "$tests"

@@ -20,6 +20,7 @@ mod origin;
 use crate::column::Column;
 use crate::lane::Lane;
 use crate::mat3::Mat3;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -270,7 +271,7 @@ pub struct Bodies<T: Real> {
 impl<T: Real> Bodies<T> {
     /// No bodies.
     pub(crate) fn none() -> Self {
-        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
+        let nothing = || array::from_fn(|_| Column::new(0, T::ZERO));
         Self {
             origin: Origin::Described,
             position: nothing(),
@@ -349,16 +350,13 @@ impl<T: Real> Bodies<T> {
                 PerBody::Each(Column::from_values(values.iter().map(|value| value.cast()), B::ONE))
             }
         };
-        let columns = |columns: &Columns3<T>| columns.each_ref().map(column);
+        let columns = |columns: &Columns3<T>| columns.refs().each(column);
         Bodies {
             origin: self.origin,
             position: columns(&self.position),
             velocity: columns(&self.velocity),
             spin: columns(&self.spin),
-            orientation: self
-                .orientation
-                .as_ref()
-                .map(|rows| Box::new(rows.each_ref().map(column))),
+            orientation: self.orientation.as_ref().map(|rows| Box::new(rows.refs().each(column))),
             radius: figure(&self.radius),
             mass: figure(&self.mass),
             inertia: figure(&self.inertia),
@@ -437,7 +435,7 @@ impl<T: Real> Bodies<T> {
     pub fn orientation_of(&self, index: usize) -> Mat3<T> {
         match &self.orientation {
             None => Mat3::IDENTITY,
-            Some(rows) => Mat3::from_rows(core::array::from_fn(|k| rows[k][index])),
+            Some(rows) => Mat3::from_rows(array::from_fn(|k| rows[k][index])),
         }
     }
 }

@@ -6,8 +6,6 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use rayon::prelude::*;
-
 /// One thread, or a pool of several.
 #[derive(Debug, Default)]
 pub struct Workers {
@@ -46,52 +44,31 @@ impl Workers {
         }
     }
 
-    /// Does the work of each item, side by side, of many that differ in length. It allocates
-    /// nothing.
-    pub fn spread<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
-        match &self.pool {
-            Some(pool) if items.len() > 1 => {
-                let workers = items.len().min(pool.current_num_threads());
-                let queue = Mutex::new(items.iter_mut());
-                let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                fan_out(pool, workers, &|| {
-                    while let Some(item) = next() {
-                        work(item);
-                    }
-                });
-            }
-            _ => items.iter_mut().for_each(work),
-        }
-    }
-
-    /// Does the work of each item, side by side.
+    /// Does the work of each item, side by side: a worker that is free takes the next one. It
+    /// allocates nothing.
     pub fn each<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
-        match &self.pool {
-            Some(pool) if items.len() > 1 => {
-                let mut tasks: Vec<_> = items.iter_mut().map(|item| || work(item)).collect();
-                let mut tasks: Vec<_> = tasks.iter_mut().map(|task| task as Task).collect();
-                share(pool, &mut tasks);
+        let workers = items.len().min(self.threads());
+        let queue = Mutex::new(items.iter_mut());
+        let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+        self.fan_out(workers, &|| {
+            while let Some(item) = next() {
+                work(item);
             }
-            _ => items.iter_mut().for_each(work),
+        });
+    }
+
+    /// As many workers do the same work side by side. It is not generic: what wakes threads
+    /// is compiled once, not for each kind of item.
+    fn fan_out(&self, workers: usize, work: &(dyn Fn() + Sync)) {
+        fn split(workers: usize, work: &(dyn Fn() + Sync)) {
+            match workers / 2 {
+                0 => work(),
+                half => drop(rayon::join(|| split(half, work), || split(workers - half, work))),
+            }
+        }
+        match &self.pool {
+            Some(pool) if workers > 1 => pool.install(|| split(workers, work)),
+            _ => work(),
         }
     }
-}
-
-/// The work of one item.
-type Task<'a> = &'a mut (dyn FnMut() + Send);
-
-/// Not generic: what hands out work is compiled once, not for each kind of item.
-fn share(pool: &rayon::ThreadPool, tasks: &mut [Task]) {
-    pool.install(|| tasks.par_iter_mut().for_each(|task| task()));
-}
-
-/// Not generic either: as many workers do the same work side by side.
-fn fan_out(pool: &rayon::ThreadPool, workers: usize, work: &(dyn Fn() + Sync)) {
-    fn split(workers: usize, work: &(dyn Fn() + Sync)) {
-        match workers / 2 {
-            0 => work(),
-            half => drop(rayon::join(|| split(half, work), || split(workers - half, work))),
-        }
-    }
-    pool.install(|| split(workers, work));
 }

@@ -2,6 +2,7 @@
 
 use super::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// Why arrays make no bodies.
@@ -183,12 +184,13 @@ impl<'a, T: Real> BodiesBuilder<'a, T> {
 }
 
 /// A column for each component.
-fn columns<T: Real, const N: usize>(vectors: &[[T; N]]) -> [Column<T>; N] {
-    core::array::from_fn(|axis| {
-        Column::from_values(vectors.iter().map(|vector| vector[axis]), T::ZERO)
-    })
+fn columns<T: Real, const N: usize>(vectors: &[[T; N]]) -> [Column<T>; N]
+where
+    [Column<T>; N]: Each<Column<T>, N>,
+{
+    array::from_fn(|axis| Column::from_values(vectors.iter().map(|vector| vector[axis]), T::ZERO))
 }
 
 fn zeros<T: Real>(len: usize) -> Columns3<T> {
-    core::array::from_fn(|_| Column::new(len, T::ZERO))
+    array::from_fn(|_| Column::new(len, T::ZERO))
 }

@@ -3,6 +3,7 @@
 use super::{Bodies, Columns3, PerBody};
 use crate::column::Column;
 use crate::mat3::Mat3;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 impl<T: Real> Bodies<T> {
@@ -10,7 +11,7 @@ impl<T: Real> Bodies<T> {
     pub(crate) fn with(&self, others: &Self) -> Self {
         let [own, more] = [self.len(), others.len()];
         let columns = |a: &Columns3<T>, b: &Columns3<T>| {
-            core::array::from_fn(|axis| column(a[axis].iter().chain(b[axis].iter()).copied()))
+            array::from_fn(|axis| column(a[axis].iter().chain(b[axis].iter()).copied()))
         };
         let figure = |a: &PerBody<T>, b: &PerBody<T>| {
             let of = |index: usize| if index < own { a.of(index) } else { b.of(index - own) };
@@ -52,7 +53,7 @@ impl<T: Real> Bodies<T> {
     #[must_use]
     pub fn only(&self, kept: &[usize]) -> Self {
         let columns = |columns: &Columns3<T>| {
-            columns.each_ref().map(|one| column(kept.iter().map(|&index| one[index])))
+            columns.refs().each(|one| column(kept.iter().map(|&index| one[index])))
         };
         let figure = |figure: &PerBody<T>| {
             PerBody::from_values(kept.iter().map(|&index| figure.of(index)), T::ONE)
@@ -80,7 +81,7 @@ fn column<T: Real>(values: impl Iterator<Item = T>) -> Column<T> {
 /// The elements of orientations, row by row.
 fn rows<T: Real>(orientations: impl Iterator<Item = Mat3<T>>) -> Box<[Column<T>; 9]> {
     let rows: Vec<[T; 9]> = orientations.map(Mat3::rows).collect();
-    Box::new(core::array::from_fn(|element| column(rows.iter().map(|row| row[element]))))
+    Box::new(array::from_fn(|element| column(rows.iter().map(|row| row[element]))))
 }
 
 #[cfg(test)]

@@ -198,13 +198,16 @@ fn shift<T: Real, const N: usize>(f: &mut [T; N], step: T) {
 impl<T: Real, const N: usize> Expansion<T, N> {
     /// Of what is never met.
     pub(crate) fn nothing() -> Self {
-        let coefficients = core::array::from_fn(|k| if k == 0 { T::ONE } else { T::ZERO });
+        let mut coefficients = [T::ZERO; N];
+        coefficients[0] = T::ONE;
         Self { coefficients, gap: T::ONE, rounding: T::ZERO, period: T::ONE }
     }
 
-    fn negated(self) -> Self {
-        let coefficients = self.coefficients.map(|coefficient| -coefficient);
-        Self { coefficients, gap: -self.gap, ..self }
+    pub(crate) fn negated(mut self) -> Self {
+        for coefficient in &mut self.coefficients {
+            *coefficient = -*coefficient;
+        }
+        Self { gap: -self.gap, ..self }
     }
 }
 

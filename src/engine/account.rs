@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::parts::Counter;
 use super::{Collisions, PartTotals};
 use crate::compensated::ExactSum;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -85,7 +86,7 @@ pub struct PartSum {
 impl PartSum {
     /// What is added up so far, of a part.
     pub fn totals(&self, part: u32) -> PartTotals {
-        let impulse = self.impulse.each_ref().map(ExactSum::value);
+        let impulse = self.impulse.refs().each(ExactSum::value);
         let normal_impulse = self.normal.value();
         PartTotals {
             part,
@@ -224,7 +225,7 @@ impl Account {
         Totals {
             collisions: self.collisions,
             virial: self.virial.value(),
-            impulse: impulse.each_ref().map(ExactSum::value),
+            impulse: impulse.refs().each(ExactSum::value),
         }
     }
 }

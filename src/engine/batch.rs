@@ -18,6 +18,7 @@ use std::collections::BTreeMap;
 
 use super::{ChangeError, Collisions, Compiled, EngineError, Event, Execution, Plan, World};
 use crate::bodies::Bodies;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::{QuickCheck, Scene, SceneError};
 use crate::vec3::Vec3;
@@ -402,7 +403,7 @@ impl<T: Real> Batch<T> {
     /// The uniform acceleration in a scene, length per time².
     #[must_use]
     pub fn gravity(&self, scene: usize) -> Option<Vec3<T>> {
-        self.of(scene, |pack, lane| pack.gravity.each_ref().map(|g| g[lane]).into(), World::gravity)
+        self.of(scene, |pack, lane| pack.gravity.refs().each(|g| g[lane]).into(), World::gravity)
     }
 
     /// The centre of a body of a scene, length.
@@ -458,7 +459,7 @@ impl<T: Real> Batch<T> {
     /// ```
     pub fn observe<R: Send>(&self, of: impl Fn(usize, &Bodies<T>) -> R + Sync) -> Vec<Option<R>> {
         let mut all: Vec<_> = (0..self.len()).map(|scene| (scene, None)).collect();
-        self.workers.spread(&mut all, |(scene, observed)| {
+        self.workers.each(&mut all, |(scene, observed)| {
             *observed = self.bodies(*scene).map(|bodies| of(*scene, &bodies));
         });
         all.into_iter().map(|(_, observed)| observed).collect()

@@ -14,6 +14,7 @@ use super::{EngineError, Event, Listener, PartTotals, Partner, Plan};
 use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
 use crate::compensated::two_sum;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::space::PeriodicBox;
@@ -232,7 +233,7 @@ fn scaled_real<T: Real>(value: T, exponent: i32) -> T {
 }
 
 fn scaled<T: Real>(vector: Vec3<T>, exponent: i32) -> Vec3<T> {
-    vector.to_array().map(|x| scaled_real(x, exponent)).into()
+    vector.to_array().each(|x| scaled_real(x, exponent)).into()
 }
 
 fn scale_column<T: Real>(column: &mut Column<T>, exponent: i32) {
@@ -267,7 +268,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Framed<T, E> {
         Totals {
             collisions,
             virial: virial * power(mass + 2 * length - time),
-            impulse: impulse.map(|impulse| impulse * power(mass + length - time)),
+            impulse: impulse.each(|impulse| impulse * power(mass + length - time)),
         }
     }
 
@@ -276,7 +277,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Framed<T, E> {
         let mut parts = self.engine.parts();
         for part in &mut parts {
             let unit = power(mass + length - time);
-            part.impulse = part.impulse.map(|impulse| impulse * unit);
+            part.impulse = part.impulse.each(|impulse| impulse * unit);
             part.normal_impulse *= unit;
             part.area = part.area.map(|area| area * power(2 * length));
         }

@@ -14,6 +14,7 @@ use super::interface::{Engine, EventEngine, StepEngine, Stretch};
 use super::snapshot::{Misfit, SavedLater, SavedStart, Snapshot};
 use super::{Collisions, EngineError, Event, Listener, PartTotals, Plan};
 use crate::bodies::{Bodies, Columns3};
+use crate::numbers::array;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -118,7 +119,7 @@ impl<T: Real, E: Engine<T> + ?Sized> Engine<T> for Later<T, E> {
                 surroundings: collisions.surroundings + now.collisions.surroundings,
             },
             virial: virial + now.virial,
-            impulse: core::array::from_fn(|axis| impulse[axis] + now.impulse[axis]),
+            impulse: array::from_fn(|axis| impulse[axis] + now.impulse[axis]),
         }
     }
 

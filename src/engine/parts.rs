@@ -1,6 +1,7 @@
 //! Parts: which parts of the surroundings are counted apart, and what they come to.
 
 use super::account::PartSum;
+use crate::numbers::array;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::surroundings::Passages;
@@ -104,7 +105,7 @@ impl PartTotals {
         Self {
             part: self.part,
             collisions: self.collisions + before.collisions,
-            impulse: core::array::from_fn(|axis| before.impulse[axis] + self.impulse[axis]),
+            impulse: array::from_fn(|axis| before.impulse[axis] + self.impulse[axis]),
             normal_impulse: before.normal_impulse + self.normal_impulse,
             area: self.area,
             removed: self.removed + before.removed,
@@ -127,7 +128,7 @@ impl PartTotals {
         Self {
             part: self.part,
             collisions: self.collisions - earlier.collisions,
-            impulse: core::array::from_fn(|axis| self.impulse[axis] - earlier.impulse[axis]),
+            impulse: array::from_fn(|axis| self.impulse[axis] - earlier.impulse[axis]),
             normal_impulse: self.normal_impulse - earlier.normal_impulse,
             area: self.area,
             removed: self.removed - earlier.removed,

@@ -10,6 +10,7 @@ use crate::bodies::PerBody;
 use crate::contact::Surface;
 use crate::lane::Lane;
 use crate::motion::Integrator;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::{Encounters, EngineKind, Impact, OrientationUpdate, Scene, Summation};
 use crate::surroundings::Shape;
@@ -234,7 +235,7 @@ fn has_short_steps<T: Real>(scene: &Scene<T>) -> bool {
     let points = scene.surroundings.iter().flat_map(|shape| shape.points());
     extent = points.flat_map(Vec3::to_array).map(T::to_f64).fold(extent, greatest);
     if let Some(space) = scene.periodic {
-        let corners = [space.lower, space.upper].map(Vec3::to_array);
+        let corners = [space.lower, space.upper].each(Vec3::to_array);
         extent = corners.iter().flatten().map(|&x| x.to_f64()).fold(extent, greatest);
     }
     let components = bodies.velocity.iter().flat_map(|column| column.iter());

@@ -15,6 +15,7 @@ use super::sensed::Seen;
 use super::stepped::StepState;
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -125,7 +126,7 @@ impl SavedStart {
             position: reals3(&bodies.position),
             velocity: reals3(&bodies.velocity),
             spin: reals3(&bodies.spin),
-            orientation: bodies.orientation.as_ref().map(|rows| rows.each_ref().map(column)),
+            orientation: bodies.orientation.as_ref().map(|rows| rows.refs().each(column)),
             radius: figure(&bodies.radius),
             mass: figure(&bodies.mass),
             inertia: figure(&bodies.inertia),
@@ -144,7 +145,7 @@ impl SavedStart {
         let orientation = match &self.orientation {
             None => None,
             Some(rows) => {
-                let mut columns = Box::new(core::array::from_fn(|_| Column::new(0, T::ZERO)));
+                let mut columns = Box::new(array::from_fn(|_| Column::new(0, T::ZERO)));
                 for (column, row) in columns.iter_mut().zip(rows) {
                     *column = row.column(len, "orientations")?;
                 }
@@ -235,7 +236,7 @@ pub(super) type Reals3 = [Reals; 3];
 
 /// What is kept of three columns.
 pub(super) fn reals3<T: Real>(columns: &Columns3<T>) -> Reals3 {
-    columns.each_ref().map(|column| Reals::of(column.iter().copied()))
+    columns.refs().each(|column| Reals::of(column.iter().copied()))
 }
 
 /// Three columns again.
@@ -249,5 +250,5 @@ pub(super) fn columns3<T: Real>(
 
 /// What is kept of vectors, a column for each axis.
 pub(super) fn reals3_of<T: Real>(vectors: impl Iterator<Item = Vec3<T>> + Clone) -> Reals3 {
-    core::array::from_fn(|axis| Reals::of(vectors.clone().map(|vector| vector.to_array()[axis])))
+    array::from_fn(|axis| Reals::of(vectors.clone().map(|vector| vector.to_array()[axis])))
 }

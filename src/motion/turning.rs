@@ -4,6 +4,7 @@ use crate::lane::Lane;
 use crate::mat3::Mat3;
 use crate::motion::rotation::turned;
 use crate::motion::sweep::{Arrays, lanes_and_tail};
+use crate::numbers::array::Each;
 use crate::vec3::Vec3;
 
 /// Turns every body's orientation for a time `time` by its angular velocity,
@@ -25,11 +26,11 @@ use crate::vec3::Vec3;
 /// ```
 pub fn turn<L: Lane>(orientation: [&mut [L::Scalar]; 9], spin: [&[L::Scalar]; 3], time: L::Scalar) {
     let lengths = orientation.iter().map(|column| column.len());
-    let len = lengths.chain(spin.map(<[L::Scalar]>::len)).min().unwrap_or(0);
+    let len = lengths.chain(spin.each(<[L::Scalar]>::len)).min().unwrap_or(0);
     let (lanes, tail) = lanes_and_tail::<L, 9>(orientation, len);
-    let spin = spin.map(|column| L::arrays(&column[..len]));
-    turn_arrays::<L>(lanes, spin.map(|(lanes, _)| lanes), time);
-    turn_arrays::<L::Scalar>(tail, spin.map(|(_, tail)| L::Scalar::arrays(tail).0), time);
+    let spin = spin.each(|column| L::arrays(&column[..len]));
+    turn_arrays::<L>(lanes, spin.each(|(lanes, _)| lanes), time);
+    turn_arrays::<L::Scalar>(tail, spin.each(|(_, tail)| L::Scalar::arrays(tail).0), time);
 }
 
 // Column by column: `map` over nine of them is not inlined, and an index over

@@ -24,6 +24,7 @@ mod twin;
 use core::fmt::Debug;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+use crate::numbers::array;
 use crate::real::Real;
 
 pub use twin::Twin;
@@ -279,6 +280,6 @@ pub trait Lane:
     #[inline(always)]
     fn transpose(records: &[&[Self::Scalar; 8]]) -> [Self; 8] {
         let records = &records[..Self::WIDTH];
-        core::array::from_fn(|j| Self::from_fn(|k| records[k][j]))
+        array::from_fn(|j| Self::from_fn(|k| records[k][j]))
     }
 }

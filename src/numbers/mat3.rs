@@ -3,6 +3,7 @@
 use core::ops::{Mul, Sub};
 
 use crate::lane::Lane;
+use crate::numbers::array;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -113,9 +114,7 @@ impl<L: Lane> Mat3<L> {
     /// ```
     #[inline(always)]
     pub fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
-        Self {
-            columns: core::array::from_fn(|k| Vec3::select(mask, yes.columns[k], no.columns[k])),
-        }
+        Self { columns: array::from_fn(|k| Vec3::select(mask, yes.columns[k], no.columns[k])) }
     }
 }
 
@@ -158,6 +157,6 @@ impl<L: Lane> Sub for Mat3<L> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self { columns: core::array::from_fn(|k| self.columns[k] - other.columns[k]) }
+        Self { columns: array::from_fn(|k| self.columns[k] - other.columns[k]) }
     }
 }

@@ -7,6 +7,7 @@
 
 use crate::compensated::{two_product, two_sum};
 use crate::lane::{Lane, Mask};
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// Sine and cosine of an angle in rad.
@@ -90,7 +91,7 @@ fn near_zero<L: Lane>(head: L, tail: L) -> (L, L) {
 /// little of it: the first difference is exact (Sterbenz).
 #[inline(always)]
 fn without_quarter_turns<L: Lane>(head: L, tail: L, quarters: L) -> (L, L) {
-    let [first, second, third] = L::Scalar::QUARTER_TURN.map(L::splat);
+    let [first, second, third] = L::Scalar::QUARTER_TURN.each(L::splat);
     let (product, error) = two_product(quarters, first);
     let (head, tail) = two_sum(head - product, tail - error);
     let (product, error) = two_product(quarters, second);

@@ -44,6 +44,7 @@ use serde::{Deserialize, Serialize};
 use super::species;
 use crate::bodies::Bodies;
 use crate::engine::Event;
+use crate::numbers::array;
 use crate::real::Real;
 use crate::scene::{AnalysisKind, AnalysisSettings};
 use crate::space::PeriodicBox;
@@ -78,7 +79,7 @@ impl Moment<'_> {
         let place = self.bodies.position_of(index).to_array();
         let (Some(space), Some(images)) = (self.space, self.images) else { return place };
         let sides = space.sides().to_array();
-        core::array::from_fn(|axis| place[axis] + sides[axis] * f64::from(images[index][axis]))
+        array::from_fn(|axis| place[axis] + sides[axis] * f64::from(images[index][axis]))
     }
 
     /// The volume of the periodic box, and its shortest side.

@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -77,7 +78,7 @@ fn total<T: Real>(bodies: &Bodies<T>, term: impl Fn(usize) -> Vec3<f64>) -> Vec3
         }
     }
     // A sum of negative zeros is a zero like any other.
-    sums.map(|sum| sum.value() + 0.0).into()
+    sums.each(|sum| sum.value() + 0.0).into()
 }
 
 macro_rules! shown_as_vector {

@@ -7,6 +7,7 @@ use super::{Energy, Images, Momentum, Temperature, collision_rate, compressibili
 use crate::bodies::Bodies;
 use crate::compensated::CompensatedSum;
 use crate::engine::{Collisions, Exchange, PartTotals, World};
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// What is measured of a world at one time. Rates and the pressure are of the time
@@ -103,7 +104,7 @@ impl Sample {
     #[must_use]
     pub fn force_since(&self, earlier: &Self) -> Option<[f64; 3]> {
         let elapsed = self.elapsed(earlier)?;
-        Some(core::array::from_fn(|k| (self.impulse[k] - earlier.impulse[k]) / elapsed))
+        Some(array::from_fn(|k| (self.impulse[k] - earlier.impulse[k]) / elapsed))
     }
 
     /// What a part of the surroundings has done since the start, if it is counted apart.
@@ -151,5 +152,5 @@ fn center<T: Real>(bodies: &Bodies<T>, images: Option<&Images<T>>) -> [f64; 3] {
     }
     let mass = total_mass(bodies);
     // Without bodies there is no centre to tell.
-    if bodies.is_empty() { [0.0; 3] } else { sums.map(|sum| sum.value() / mass) }
+    if bodies.is_empty() { [0.0; 3] } else { sums.each(|sum| sum.value() / mass) }
 }

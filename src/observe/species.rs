@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::bodies::{Bodies, PerBody};
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// The most species that have numbers of their own; where there are more, all are one.
@@ -29,7 +30,8 @@ pub fn species<T: Real>(bodies: &Bodies<T>) -> Vec<u32> {
     for index in 0..bodies.len() {
         let figures = [bodies.radius.of(index), bodies.mass.of(index)];
         let next = known.len() as u32 + 1;
-        species.push(*known.entry(figures.map(|figure| figure.to_f64().to_bits())).or_insert(next));
+        species
+            .push(*known.entry(figures.each(|figure| figure.to_f64().to_bits())).or_insert(next));
         if known.len() > MOST {
             return vec![1; bodies.len()];
         }

@@ -6,6 +6,7 @@ use super::error::Problem;
 use super::obstacles::Obstacles;
 use super::random::Random;
 use super::spheres::{Arrangement, Spread};
+use crate::numbers::array::{self, Each};
 use crate::space::neighbours::Neighbours;
 
 /// The packing fraction where random sequential insertion of equal spheres
@@ -32,13 +33,13 @@ pub(super) struct Region {
 
 impl Region {
     fn sides(&self) -> [f64; 3] {
-        core::array::from_fn(|axis| self.upper[axis] - self.lower[axis])
+        array::from_fn(|axis| self.upper[axis] - self.lower[axis])
     }
 
     /// Between which bounds the centre of a sphere can be.
     fn bounds(&self, radius: f64) -> [[f64; 2]; 3] {
         let margin = if self.is_periodic { 0.0 } else { radius };
-        core::array::from_fn(|axis| [self.lower[axis] + margin, self.upper[axis] - margin])
+        array::from_fn(|axis| [self.lower[axis] + margin, self.upper[axis] - margin])
     }
 
     /// Whether `count` spheres have room by their volume, and each by its
@@ -137,7 +138,7 @@ impl Lattice {
             }
             cells[widest] += 1;
         }
-        let planes = cells.map(|n| if is_centred { 2 * n } else { n });
+        let planes = cells.each(|n| if is_centred { 2 * n } else { n });
         let mut first = [0.0; 3];
         let mut spacing = [0.0; 3];
         for axis in 0..3 {
@@ -182,7 +183,7 @@ impl Lattice {
         let z = site / row / middle;
         let x = if self.is_centred { 2 * (site % row) + (y + z) % 2 } else { site % row };
         let at = [x, y, z];
-        core::array::from_fn(|axis| self.first[axis] + at[axis] as f64 * self.spacing[axis])
+        array::from_fn(|axis| self.first[axis] + at[axis] as f64 * self.spacing[axis])
     }
 }
 
@@ -199,7 +200,7 @@ pub(super) fn free_place(
     let bounds = region.bounds(radius);
     while *attempts > 0 {
         *attempts -= 1;
-        let center = bounds.map(|[least, greatest]| random.between(least, greatest));
+        let center = bounds.each(|[least, greatest]| random.between(least, greatest));
         let is_free = fixed.leave_free(center.into(), radius)
             && neighbours.is_none_or(|table| table.overlapping(center, radius).is_none());
         if is_free {

@@ -10,6 +10,7 @@ use super::obstacles::{Misplaced, Obstacles};
 use super::settings::{Encounters, EngineKind, Impact};
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::mat3::Mat3;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::space::neighbours::{Neighbours, largest, tolerance};
@@ -367,7 +368,7 @@ fn narrow_slabs<T: Real>(shapes: &[Shape<T>], bodies: &Bodies<T>) -> Vec<Slab<T>
             let facing = (normal + ceiling.normal).cast::<f64>().length() <= 8.0 * epsilon;
             let width = (ceiling.point - floor.point).cast::<f64>().dot(normal.cast());
             let farthest =
-                [floor.point, ceiling.point].map(|point| largest(point.cast().to_array()));
+                [floor.point, ceiling.point].each(|point| largest(point.cast().to_array()));
             let slack = tolerance(epsilon, farthest[0].max(farthest[1]), greatest);
             if facing && width - 2.0 * greatest <= slack {
                 slabs.push(Slab { parts: [part, other], normal, width, slack });
@@ -418,8 +419,8 @@ fn room<T: Real>(
 
 /// The name of a direction.
 fn direction<T: Real>(vector: Vec3<T>) -> String {
-    let components = vector.to_array().map(|component| component.to_f64() + 0.0);
-    match components.map(f64::abs) {
+    let components = vector.to_array().each(|component| component.to_f64() + 0.0);
+    match components.each(f64::abs) {
         [1.0, _, _] => "x".to_owned(),
         [_, 1.0, _] => "y".to_owned(),
         [_, _, 1.0] => "z".to_owned(),
@@ -438,7 +439,7 @@ fn overlaps<T: Real>(
     let all = 0..bodies.len() as u32;
     let is_left = |body: &u32| allowance.is_left(*body as usize);
     let placed: Vec<u32> = all.clone().filter(|body| !is_left(body)).collect();
-    let center = |body: u32| bodies.position_of(body as usize).to_array().map(T::to_f64);
+    let center = |body: u32| bodies.position_of(body as usize).to_array().each(T::to_f64);
     let whole = |body: u32| bodies.radius.of(body as usize).to_f64();
     // Spheres that may overlap are as smaller ones that may not.
     let radius = |body: u32| whole(body) - allowance.of(body as usize, whole(body));
@@ -447,14 +448,14 @@ fn overlaps<T: Real>(
         return Ok(());
     }
     let space = periodic.map(|space| {
-        let corner = |point: Vec3<T>| point.to_array().map(T::to_f64);
+        let corner = |point: Vec3<T>| point.to_array().each(T::to_f64);
         PeriodicBox::new(corner(space.lower), corner(space.upper))
     });
     let mut table = Neighbours::new(placed.len(), greatest, T::EPSILON.to_f64(), space);
     let overlap = |table: &Neighbours, body: u32| {
         let Some(other) = table.overlapping(center(body), radius(body)) else { return Ok(()) };
         let (a, b) = (body.min(other.id), body.max(other.id));
-        let soft = [a, b].map(|body| whole(body) - radius(body));
+        let soft = [a, b].each(|body| whole(body) - radius(body));
         let (depth, found) = (other.depth + soft[0] + soft[1], b as usize);
         Err((found, "", Problem::Overlap { a: a as usize, b: found, depth }))
     };

@@ -8,6 +8,7 @@ use super::obstacles::Obstacles;
 use super::random::{Purpose, Random, Seed};
 use super::settings::Encounters;
 use crate::bodies::Bodies;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -48,13 +49,13 @@ impl Opening {
         match *self {
             Self::At(place) => place,
             Self::Box([lower, upper]) => {
-                core::array::from_fn(|axis| random.between(lower[axis], upper[axis]))
+                array::from_fn(|axis| random.between(lower[axis], upper[axis]))
             }
             Self::Disc(center, axis, reach) => {
                 let axis = Vec3::from(axis);
                 let axis = axis * (1.0 / axis.length());
                 // Across the axis, from the coordinate axis that it is farthest from.
-                let [x, y, z] = axis.to_array().map(f64::abs);
+                let [x, y, z] = axis.to_array().each(f64::abs);
                 let other = if x <= y && x <= z {
                     Vec3::new(1.0, 0.0, 0.0)
                 } else if y <= z {

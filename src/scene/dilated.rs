@@ -6,6 +6,7 @@ use super::generate::cube_root;
 use super::raw::{RawPeriodic, RawScene, RawSpheres, Vector, Whole};
 use super::settings::MOST_BODIES;
 use super::spheres::Arrangement;
+use crate::numbers::array::Each;
 
 impl SceneFile {
     /// The same scene with about this many bodies, as dense as before.
@@ -102,7 +103,7 @@ impl RawScene {
     fn dilate(&mut self, factor: f64) {
         let dilate = |point: &mut Option<Vector>| {
             if let Some(Vector(point)) = point {
-                *point = point.map(|component| component * factor);
+                *point = point.each(|component| component * factor);
             }
         };
         if let Some(RawPeriodic::Box(bounds)) = &mut self.periodic {

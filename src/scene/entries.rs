@@ -6,6 +6,7 @@ use super::inlet::{Inlet, Opening};
 use super::origin::Origin;
 use super::raw::{Number, RawInlet, RawSpheres, Vector, Whole, number};
 use super::spheres::{Make, Sphere, Spheres, Spread};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::surroundings::{Mistake, NO_VECTOR, positive};
 
@@ -83,7 +84,7 @@ fn made(
 ) -> Make {
     let inertia_factor = number(inertia_factor).unwrap_or(0.4);
     let [velocity, spin] =
-        motion.map(|given| given.map_or([0.0; 3], |Vector(components)| components));
+        motion.each(|given| given.map_or([0.0; 3], |Vector(components)| components));
     Make { radius, mass, density, inertia_factor, velocity, spin }
 }
 

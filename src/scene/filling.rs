@@ -8,6 +8,7 @@ use super::spheres::{Make, Spheres};
 use crate::bodies::{Bodies, Columns3, Origin, PerBody};
 use crate::column::Column;
 use crate::mat3::Mat3;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// A figure of all bodies that gets a column once two of them differ.
@@ -55,7 +56,7 @@ pub(super) struct Filling<T: Real> {
 
 impl<T: Real> Filling<T> {
     pub(super) fn new(len: usize) -> Self {
-        let columns = || core::array::from_fn(|_| Column::new(len, T::ZERO));
+        let columns = || array::from_fn(|_| Column::new(len, T::ZERO));
         let sparse = || Sparse { len, values: None };
         Self {
             position: columns(),
@@ -134,7 +135,7 @@ impl<T: Real> Filling<T> {
             let len = self.position[0].len();
             let world = Mat3::<T>::IDENTITY.rows();
             let all = self.orientation.get_or_insert_with(|| {
-                Box::new(core::array::from_fn(|element| Column::new(len, world[element])))
+                Box::new(array::from_fn(|element| Column::new(len, world[element])))
             });
             for (all, these) in all.iter_mut().zip(orientation.iter()) {
                 all[range.clone()].copy_from_slice(these);
@@ -164,7 +165,7 @@ impl<T: Real> Filling<T> {
 /// Columns of `count` vectors that a function gives one by one.
 #[cfg(feature = "files")]
 fn drawn<T: Real>(count: usize, draw: impl FnOnce(&mut dyn FnMut(usize, [f64; 3]))) -> Columns3<T> {
-    let mut columns = core::array::from_fn(|_| Column::new(count, T::ZERO));
+    let mut columns = array::from_fn(|_| Column::new(count, T::ZERO));
     draw(&mut |k, vector| set(&mut columns, k, vector));
     columns
 }
@@ -191,10 +192,10 @@ fn velocities(
                 momentum[axis] += mass * velocity[axis];
             }
         });
-        drift = core::array::from_fn(|axis| drift[axis] - momentum[axis] / total);
+        drift = array::from_fn(|axis| drift[axis] - momentum[axis] / total);
     }
     thermal(count, temperature, &figures.mass, random(), |k, velocity| {
-        take(k, core::array::from_fn(|i| velocity[i] + drift[i]));
+        take(k, array::from_fn(|i| velocity[i] + drift[i]));
     });
 }
 
@@ -208,7 +209,7 @@ fn spins(
 ) {
     let (random, common) = (seed.random(Purpose::Spin), spheres.make.spin);
     thermal(count, spheres.spin_temperature, &figures.inertia, random, |k, spin| {
-        take(k, core::array::from_fn(|i| spin[i] + common[i]));
+        take(k, array::from_fn(|i| spin[i] + common[i]));
     });
 }
 
@@ -224,7 +225,7 @@ pub(super) fn thermal(
     for k in 0..count {
         if temperature > 0.0 {
             let width = (temperature / inertia.of(k)).sqrt();
-            take(k, random.normal3().map(|z| z * width));
+            take(k, random.normal3().each(|z| z * width));
         } else {
             take(k, [0.0; 3]);
         }

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::error::{Problem, SceneError};
 use super::origin::Origin;
 use super::raw::{KEYS, Number, RawRotation, RawSurroundings, Vector};
+use crate::numbers::array::Each;
 use crate::surroundings::{
     Mistake, NO_VECTOR, Placement, Sensor, Shape, ShapeKind, finite, positive, shape_kinds,
 };
@@ -65,7 +66,7 @@ fn placement(raw: &RawSurroundings) -> Result<Placement<f64>, Mistake> {
         let Number(angle) = angle
             .ok_or_else(|| Mistake::missing("rotation.angle", "an angle in rad belongs here"))?;
         let Vector(center) = center.unwrap_or(Vector([0.0; 3]));
-        let [axis, center] = [axis, center].map(Vec3::from);
+        let [axis, center] = [axis, center].each(Vec3::from);
         let length = axis.length();
         if !(length.is_normal() && (1.0 / length).is_normal()) {
             let wanted = "an axis must be finite and have a length greater than 0";

@@ -12,6 +12,7 @@ use super::random::{Purpose, Seed};
 use super::settings::Encounters;
 use super::spheres::{Arrangement, Spheres, Spread};
 use crate::bodies::Bodies;
+use crate::numbers::array;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::space::neighbours::Neighbours;
@@ -250,8 +251,8 @@ fn region<T: Real>(
         Some(Region { lower: lower.to_array(), upper: upper.to_array(), is_periodic: false })
     });
     interiors.reduce(|a, b| Region {
-        lower: core::array::from_fn(|axis| a.lower[axis].max(b.lower[axis])),
-        upper: core::array::from_fn(|axis| a.upper[axis].min(b.upper[axis])),
+        lower: array::from_fn(|axis| a.lower[axis].max(b.lower[axis])),
+        upper: array::from_fn(|axis| a.upper[axis].min(b.upper[axis])),
         is_periodic: false,
     })
 }

@@ -1,6 +1,7 @@
 //! Obstacles: what is fixed in a scene, and where it is in the way.
 
 use crate::contact::{FreeFlight, greatest_component};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::{Bounds, Ray, Tree, joined, unit};
 use crate::surroundings::{Clearance, Feature, FeatureRef, Features, Shape};
@@ -152,7 +153,7 @@ impl<T: Real> Obstacles<T> {
         const MOST: f64 = 4096.0;
         let Some(bounds) = self.features.mesh_bounds().reduce(joined) else { return };
         let ray = Ray::new(start, unit, longest);
-        let Some([enters, leaves]) = ray.span(bounds.map(Vec3::to_array)) else { return };
+        let Some([enters, leaves]) = ray.span(bounds.each(Vec3::to_array)) else { return };
         // About as long as the triangles of a surface are.
         let triangles = self.features.len() - self.features.alone().len();
         let stretches = (triangles as f64).sqrt().ceil().clamp(1.0, MOST) as i32;

@@ -6,6 +6,7 @@ use super::file::SceneFile;
 use super::raw::{Number, RawAnalyse, RawSeries, RawSnapshot, RawWritten, Whole, number};
 use super::settings::{AnalysisKind, AnalysisSettings, Written};
 use super::spheres::Spread;
+use crate::numbers::array::Each;
 
 /// An entry of `[[analyse]]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +114,7 @@ impl SceneFile {
     pub fn analyses(&self) -> Result<Vec<AskedAnalysis>, SceneError> {
         let read = |(index, raw): (usize, &RawAnalyse)| {
             let entry = format!("analyse[{index}]");
-            let kinds = || AnalysisKind::ALL.map(|kind| format!("\"{}\"", kind.name())).join(", ");
+            let kinds = || AnalysisKind::ALL.each(|kind| format!("\"{}\"", kind.name())).join(", ");
             let kind = raw.kind.ok_or_else(|| {
                 let wanted = format!("it must be one of {}", kinds());
                 self.origin().error(format!("{entry}.kind"), Problem::missing(&wanted))

@@ -10,6 +10,8 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use crate::numbers::array;
+
 /// What a stream of random numbers is for. Each has its own, so that a change
 /// of temperature moves no body.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +127,7 @@ impl Random {
 
     /// Three independent normal deviates.
     pub(super) fn normal3(&mut self) -> [f64; 3] {
-        core::array::from_fn(|_| self.normal())
+        array::from_fn(|_| self.normal())
     }
 }
 

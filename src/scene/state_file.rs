@@ -17,6 +17,7 @@ use super::spheres::Spheres;
 use crate::bodies::{Bodies, Origin, PerBody};
 use crate::column::Column;
 use crate::mat3::Mat3;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 const POSITION: [&str; 3] = ["x", "y", "z"];
@@ -109,7 +110,7 @@ impl StateFile {
     ) -> Result<Bodies<T>, SceneError> {
         let rows = Rows::<T>::read(&mut self)?;
         let count = rows.position[0].len();
-        let [radius, mass] = [rows.radius, rows.mass].map(|column| column.map(Values::listed));
+        let [radius, mass] = [rows.radius, rows.mass].each(|column| column.map(Values::listed));
         let figures = Figures::beside(&spheres.make, count, seed, radius, mass);
         let figure = |values: &Values| match values {
             Values::Same(value) => PerBody::Same(T::from_f64(*value)),
@@ -118,13 +119,13 @@ impl StateFile {
             }
         };
         let [radius, mass, inertia] =
-            [&figures.radius, &figures.mass, &figures.inertia].map(figure);
+            [&figures.radius, &figures.mass, &figures.inertia].each(figure);
         let velocity = match rows.velocity {
-            Some(columns) => columns.map(column),
+            Some(columns) => columns.each(column),
             None => Filling::velocities(count, spheres, &figures, seed),
         };
         let spin = match rows.spin {
-            Some(columns) => columns.map(column),
+            Some(columns) => columns.each(column),
             None => Filling::spins(count, spheres, &figures, seed),
         };
         drop(figures);
@@ -136,10 +137,10 @@ impl StateFile {
         let orientation = rows.orientation.filter(|columns| is_turned(columns));
         Ok(Bodies {
             origin: Origin::State,
-            position: rows.position.map(column),
+            position: rows.position.each(column),
             velocity,
             spin,
-            orientation: orientation.map(|columns| Box::new(columns.map(column))),
+            orientation: orientation.map(|columns| Box::new(columns.each(column))),
             radius,
             mass,
             inertia,
@@ -234,8 +235,7 @@ impl<T: Real> Rows<T> {
         }
         if let (Some(columns), Some(at)) = (&mut self.orientation, file.orientation) {
             add(columns, at, ORIENTATION, record, &fail)?;
-            let rows: [T; 9] =
-                core::array::from_fn(|k| columns[k].last().copied().unwrap_or(T::ZERO));
+            let rows: [T; 9] = array::from_fn(|k| columns[k].last().copied().unwrap_or(T::ZERO));
             if !is_rotation(Mat3::from_rows(rows)) {
                 let wanted = "its columns must be orthonormal and right-handed";
                 let problem = value("no rotation".to_owned(), wanted.to_owned());

@@ -26,6 +26,7 @@ use skin::{best_skin, neighbours};
 
 use crate::bodies::{Columns3, PerBody, Same, at};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::sizes::{class, classes};
 use crate::space::{FixedParts, OpenSpace, PeriodicBox, Space, Tree};
@@ -231,7 +232,7 @@ impl<T: Real> BroadPhase<T> {
         let grids: Vec<_> =
             self.grids.iter().map(|&(grid, first)| SearchedGrid { grid, first }).collect();
         candidates.begin(&grids, &self.order.starts);
-        let position = surveyed.position.each_ref().map(|column| column.padded());
+        let position = surveyed.position.refs().each(|column| column.padded());
         let search = Search {
             position,
             skin,
@@ -287,7 +288,7 @@ impl<T: Real> BroadPhase<T> {
 
 /// The corners of the smallest box around all points.
 fn bounds<T: Real>(position: &Columns3<T>) -> (Vec3<T>, Vec3<T>) {
-    let bounds = position.each_ref().map(|column| {
+    let bounds = position.refs().each(|column| {
         let first = column.first().copied().unwrap_or(T::ZERO);
         column.iter().fold((first, first), |(least, most), &c| (c.lesser(least), c.greater(most)))
     });

@@ -15,6 +15,7 @@ pub(crate) use members::{CutCells, Members};
 pub(crate) use span::Span;
 
 use super::pieces::{Pieces, cut};
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -87,7 +88,7 @@ impl<T: Real> Cells<T> {
         let extent = span.part();
         let mut wanted = wanted.greater(least);
         let counts = loop {
-            let counts = extent.map(|extent| count(extent, least, wanted, span.ends));
+            let counts = extent.each(|extent| count(extent, least, wanted, span.ends));
             // No extent has more than its few least cells once it is this wide.
             if numbers(counts) <= most || !wanted.is_finite() {
                 break counts;
@@ -102,7 +103,7 @@ impl<T: Real> Cells<T> {
     fn of_counts(span: Span<T>, counts: [i32; 3], most: u64) -> Self {
         let (lower, extent) = (span.lower.to_array(), span.part());
         let rounding = rounding(span);
-        let mut axes = core::array::from_fn(|k| Axis {
+        let mut axes = array::from_fn(|k| Axis {
             lower: lower[k],
             side: extent[k] / T::whole(counts[k]),
             count: counts[k].saturating_mul(span.folds[k]),
@@ -111,7 +112,7 @@ impl<T: Real> Cells<T> {
             parts: Vec::new(),
         });
         let numbers = number(&mut axes);
-        let margins = axes.each_ref().map(|axis| axis.side * T::ratio(1, MARGIN) + rounding);
+        let margins = axes.refs().each(|axis| axis.side * T::ratio(1, MARGIN) + rounding);
         Self {
             grid: Grid { axes, margin: Vec3::from(margins) },
             blocks: 1,
@@ -189,7 +190,7 @@ impl<T: Real> Cells<T> {
 impl<T: Real> Grid<T> {
     /// Cells in memory along each axis.
     pub fn counts(&self) -> [i32; 3] {
-        self.axes.each_ref().map(|axis| axis.kept)
+        self.axes.refs().each(|axis| axis.kept)
     }
 
     /// Whether the last cell in memory along an axis is a neighbour of the first.
@@ -205,7 +206,7 @@ impl<T: Real> Grid<T> {
     /// The sides of a cell and how far beyond them a body counts as inside, length.
     pub fn sides(&self) -> [[f64; 2]; 3] {
         let margin = self.margin.to_array();
-        core::array::from_fn(|k| [self.axes[k].side.to_f64(), margin[k].to_f64()])
+        array::from_fn(|k| [self.axes[k].side.to_f64(), margin[k].to_f64()])
     }
 
     /// Whether the box is so narrow along an axis that two images of a pair can
@@ -229,7 +230,7 @@ impl<T: Real> Grid<T> {
     /// The cell's coordinates of a point.
     pub fn cell_of(&self, point: Vec3<T>) -> [i32; 3] {
         let point = point.to_array();
-        core::array::from_fn(|k| {
+        array::from_fn(|k| {
             let axis = &self.axes[k];
             let cells = (point[k] - axis.lower) / axis.side;
             let whole = cells.whole_part().saturating_sub(i64::from(cells < T::ZERO));
@@ -241,7 +242,7 @@ impl<T: Real> Grid<T> {
     #[inline(always)]
     pub fn turned_back(&self, cell: [i32; 3], turns: Vec3<T>) -> [i32; 3] {
         let turns = turns.to_array();
-        core::array::from_fn(|k| {
+        array::from_fn(|k| {
             if turns[k] == T::ZERO {
                 return cell[k];
             }
@@ -257,7 +258,7 @@ impl<T: Real> Grid<T> {
 
     /// Greatest distance of two bodies in neighbouring cells.
     pub fn neighbourhood(&self) -> f64 {
-        let sides = self.axes.each_ref().map(|axis| axis.side.to_f64());
+        let sides = self.axes.refs().each(|axis| axis.side.to_f64());
         2.1 * sides.iter().map(|side| side * side).sum::<f64>().sqrt()
     }
 
@@ -292,7 +293,7 @@ impl<T: Real> Grid<T> {
         is_near: impl Fn(Vec3<T>, T) -> bool,
         mut visit: impl FnMut(u32),
     ) {
-        let counts = self.axes.each_ref().map(|axis| axis.count);
+        let counts = self.axes.refs().each(|axis| axis.count);
         let [first, last] = match bounds {
             None => [[0; 3], counts],
             Some(bounds) => self.cells_at(bounds, radius),
@@ -300,11 +301,11 @@ impl<T: Real> Grid<T> {
         // Block by block first: most are far from everything.
         let middle = |from: [i32; 3], sides: i32| -> (Vec3<T>, T) {
             let half = |axis: &Axis<T>| axis.side * T::ratio(sides, 2);
-            let [x, y, z] = core::array::from_fn(|k| {
+            let [x, y, z] = array::from_fn(|k| {
                 let axis = &self.axes[k];
                 axis.lower + axis.side * T::whole(from[k]) + half(axis)
             });
-            let [a, b, c] = self.axes.each_ref().map(half);
+            let [a, b, c] = self.axes.refs().each(half);
             let reach = Vec3::new(a, b, c) + self.margin + self.margin;
             (Vec3::new(x, y, z), reach.length())
         };
@@ -313,7 +314,7 @@ impl<T: Real> Grid<T> {
             is_near(center, reach)
         };
         let within = |k: usize, cell: i32| cell >= first[k] && cell <= last[k] && cell < counts[k];
-        let [across, along, up] = core::array::from_fn(|k| {
+        let [across, along, up] = array::from_fn(|k| {
             let start = first[k].max(0) / BLOCK * BLOCK;
             (start..counts[k].min(last[k].saturating_add(1))).step_by(BLOCK as usize)
         });
@@ -377,7 +378,7 @@ impl<T: Real> Grid<T> {
 
     #[inline(always)]
     fn lines(&self, cell: [i32; 3]) -> [[u32; 3]; 3] {
-        core::array::from_fn(|k| {
+        array::from_fn(|k| {
             let axis = &self.axes[k];
             axis.parts[axis.folded(cell[k]) as usize]
         })

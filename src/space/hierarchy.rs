@@ -9,6 +9,7 @@
 //! Boxes are in f32, rounded outward, in every precision.
 
 use super::Bounds;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// The most parts of a node that is not cut further. Of 4 in place of 8 the nodes take
@@ -148,13 +149,13 @@ fn spread(number: u64) -> u64 {
 }
 
 fn joined([a, b]: [[f32; 3]; 2], [c, d]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
-    [core::array::from_fn(|k| a[k].min(c[k])), core::array::from_fn(|k| b[k].max(d[k]))]
+    [array::from_fn(|k| a[k].min(c[k])), array::from_fn(|k| b[k].max(d[k]))]
 }
 
 /// The least box in f32 around a box.
 #[inline(always)]
 fn outward<T: Real>([lower, upper]: Bounds<T>) -> [[f32; 3]; 2] {
-    [lower.to_array().map(below), upper.to_array().map(|value| -below(-value))]
+    [lower.to_array().each(below), upper.to_array().each(|value| -below(-value))]
 }
 
 /// The greatest f32 that is not above a number.

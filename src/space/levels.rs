@@ -16,6 +16,7 @@
 use super::cells::{Cells, Grid, Members, Span};
 use super::sizes;
 use crate::bodies::PerBody;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// Bodies in the cells around a body from which one grid is no longer enough.
@@ -135,11 +136,11 @@ impl<T: Real> Levels<T> {
         let mut levels: Vec<_> = classes
             .iter()
             .map(|&(greatest, least, digits)| Level {
-                cells: coarsest.divided(span, base.map(|count| count << digits)),
+                cells: coarsest.divided(span, base.each(|count| count << digits)),
                 sizes: Sizes { greatest, least, shift: finest - digits, shells: Vec::new() },
             })
             .collect();
-        let margin = levels.last()?.cells.grid().sides().map(|[_, margin]| margin);
+        let margin = levels.last()?.cells.grid().sides().each(|[_, margin]| margin);
         for coarse in 0..levels.len() {
             for fine in coarse + 1..levels.len() {
                 let shell = shell(&levels[coarse], &levels[fine], margin)?;
@@ -236,7 +237,7 @@ impl<'a, T: Real> Held<'a, T> {
     #[inline(always)]
     pub fn cell_at(&self, level: usize, cell: [i32; 3]) -> [i32; 3] {
         match self.sizes.get(level) {
-            Some(sizes) => cell.map(|c| c >> sizes.shift),
+            Some(sizes) => cell.each(|c| c >> sizes.shift),
             None => cell,
         }
     }
@@ -278,10 +279,9 @@ impl<'a, T: Real> Held<'a, T> {
 /// many binary digits the finest one has more, at most `fine` in all, so that it has
 /// as many as possible.
 fn nested(coarse: [i32; 3], fine: [i32; 3]) -> ([i32; 3], u32) {
-    let base =
-        |shift: u32| -> [i32; 3] { core::array::from_fn(|k| coarse[k].min(fine[k] >> shift)) };
+    let base = |shift: u32| -> [i32; 3] { array::from_fn(|k| coarse[k].min(fine[k] >> shift)) };
     let is_valid = |shift: &u32| (0..3).all(|k| base(*shift)[k] >= coarse[k].min(2));
-    let count = |&shift: &u32| base(shift).map(|count| i64::from(count << shift)).iter().product();
+    let count = |&shift: &u32| base(shift).each(|count| i64::from(count << shift)).iter().product();
     let shifts = (0..=MOST_SHIFT).take_while(is_valid).map(|shift| (count(&shift), shift));
     let best: (i64, u32) =
         shifts.fold((0, 0), |best, next| if next.0 > best.0 { next } else { best });
@@ -292,13 +292,12 @@ fn nested(coarse: [i32; 3], fine: [i32; 3]) -> ([i32; 3], u32) {
 /// coarser level whose centre is in the middle one. `None` if the grid closes upon
 /// itself within them.
 fn shell<T: Real>(coarse: &Level<T>, fine: &Level<T>, margin: [f64; 3]) -> Option<Vec<Row>> {
-    let sides = fine.cells.grid().sides().map(|[side, _]| side);
+    let sides = fine.cells.grid().sides().each(|[side, _]| side);
     // Both bodies may be beyond their cells; a little more, for the rounding.
-    let beyond = margin.map(|margin| 2.5 * margin);
+    let beyond = margin.each(|margin| 2.5 * margin);
     let outer = coarse.sizes.greatest.to_f64() + fine.sizes.greatest.to_f64();
     let inner = coarse.sizes.least.to_f64();
-    let most: [i32; 3] =
-        core::array::from_fn(|k| ((outer + beyond[k]) / sides[k]).floor() as i32 + 1);
+    let most: [i32; 3] = array::from_fn(|k| ((outer + beyond[k]) / sides[k]).floor() as i32 + 1);
     let closes = |k: usize| {
         let count = i64::from(fine.cells.grid().counts()[k]);
         fine.cells.grid().closes(k) && 2 * i64::from(most[k]) + 1 > count

@@ -6,6 +6,7 @@ use crate::bodies::{Bodies, Columns3, PerBody};
 use crate::column::Column;
 use crate::lane::Lane;
 use crate::motion::flight::Wrap;
+use crate::numbers::array;
 use crate::real::Real;
 use crate::vec3::Vec3;
 use crate::workers::Workers;
@@ -85,7 +86,7 @@ pub(crate) fn for_each_near_pair<T: Real>(
 }
 
 fn columns<T: Real>(len: usize, point: impl Fn(usize) -> Vec3<T>) -> Columns3<T> {
-    let mut columns = core::array::from_fn(|_| Column::new(len, T::ZERO));
+    let mut columns = array::from_fn(|_| Column::new(len, T::ZERO));
     for k in 0..len {
         for (column, value) in columns.iter_mut().zip(point(k).to_array()) {
             column[k] = value;

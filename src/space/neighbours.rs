@@ -10,6 +10,7 @@
 
 use core::ops::RangeInclusive;
 
+use crate::numbers::array::{self, Each};
 use crate::space::PeriodicBox;
 
 const NONE: u32 = u32::MAX;
@@ -83,14 +84,14 @@ impl Neighbours {
     /// A key by which points near each other sort together, for the sake of the cache.
     pub(crate) fn order(&self, level: u32, center: [f64; 3]) -> u64 {
         const MASK: u64 = (1 << 21) - 1;
-        let [x, y, z] = center.map(|c| self.cell(level, c) as u64 & MASK);
+        let [x, y, z] = center.each(|c| self.cell(level, c) as u64 & MASK);
         z << 42 | y << 21 | x
     }
 
     /// Adds a sphere.
     pub(crate) fn insert(&mut self, id: u32, center: [f64; 3], radius: f64) {
         let level = self.level(radius);
-        let cells = center.map(|c| self.cell(level, c));
+        let cells = center.each(|c| self.cell(level, c));
         let bucket = self.bucket(level, cells);
         let slot = self.residents.len() as u32;
         self.residents.push(Resident { center, radius, id, next: self.heads[bucket] });
@@ -107,7 +108,7 @@ impl Neighbours {
         let reach = radius + self.greatest_radius;
         let lower = periodic.lower.to_array();
         let upper = periodic.upper.to_array();
-        let shifts: [[Option<f64>; 3]; 3] = core::array::from_fn(|axis| {
+        let shifts: [[Option<f64>; 3]; 3] = array::from_fn(|axis| {
             let side = upper[axis] - lower[axis];
             let is_low = center[axis] - reach < lower[axis];
             let is_high = center[axis] + reach > upper[axis];
@@ -131,7 +132,7 @@ impl Neighbours {
         for level in 0..=FINEST {
             if self.population[level as usize] > 0 {
                 let reach = radius + greatest;
-                let ranges = center.map(|c| self.cells(level, c, reach));
+                let ranges = center.each(|c| self.cells(level, c, reach));
                 let found = self.overlapping_in(level, &ranges, center, radius);
                 if found.is_some() {
                     return found;
@@ -200,7 +201,7 @@ impl Neighbours {
 
     fn overlap(&self, other: &Resident, center: [f64; 3], radius: f64) -> Option<Overlapping> {
         let reach = other.radius + radius;
-        let [x, y, z] = core::array::from_fn(|axis| other.center[axis] - center[axis]);
+        let [x, y, z] = array::from_fn(|axis| other.center[axis] - center[axis]);
         let square = x * x + y * y + z * z;
         if square >= reach * reach {
             return None;

@@ -2,6 +2,7 @@
 
 use crate::lane::Lane;
 use crate::motion::flight::Wrap;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -155,7 +156,7 @@ impl<T: Real> Space<T> for PeriodicBox<T> {
         let mut images = Vec::new();
         for x in steps(sides.x) {
             for y in steps(sides.y) {
-                images.extend(steps(sides.z).map(|z| Vec3::new(x, y, z)));
+                images.extend(steps(sides.z).each(|z| Vec3::new(x, y, z)));
             }
         }
         images

@@ -6,6 +6,7 @@ use super::tree::Ray;
 use super::{Bounds, PeriodicBox, Space, Tree};
 use crate::bodies::Bodies;
 use crate::motion::flight::Wrap;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -265,13 +266,13 @@ fn around<T: Real>(center: Vec3<T>, radius: T) -> Bounds<T> {
 
 /// A vector of length 1 in a direction, if it is one.
 pub(crate) fn unit<T: Real>(direction: Vec3<T>) -> Option<Vec3<T>> {
-    let [x, y, z] = direction.to_array().map(|component| component.abs());
+    let [x, y, z] = direction.to_array().each(|component| component.abs());
     let greatest = x.greater(y).greater(z);
     if !(greatest > T::ZERO && greatest.is_finite()) {
         return None;
     }
     // Squares of what is between 1 and √3 are numbers in any units.
-    let scaled = Vec3::from(direction.to_array().map(|component| component / greatest));
+    let scaled = Vec3::from(direction.to_array().each(|component| component / greatest));
     Some(scaled * (T::ONE / scaled.length()))
 }
 
@@ -306,22 +307,22 @@ pub(crate) fn along_boxes<T: Real>(
 ) {
     let shift = |cell: [i32; 3]| {
         let sides = space.sides().to_array();
-        Vec3::from(core::array::from_fn::<T, 3, _>(|axis| T::whole(cell[axis]) * sides[axis]))
+        Vec3::from(array::from_fn(|axis| T::whole(cell[axis]) * sides[axis]))
     };
-    let [start, unit] = [start, unit].map(Vec3::to_array);
+    let [start, unit] = [start, unit].each(Vec3::to_array);
     let mut cell = [0_i32; 3];
     let mut looked_at = HashSet::new();
     for _ in 0..MOST_BOXES {
         let mut nearest = None;
         for neighbour in 0..27_i32 {
             let step = [neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1];
-            let image = core::array::from_fn(|axis| cell[axis] + step[axis]);
+            let image = array::from_fn(|axis| cell[axis] + step[axis]);
             if looked_at.insert(image) {
                 nearest = from(shift(image), longest).or(nearest);
             }
         }
         let own = shift(cell);
-        let [lower, upper] = [space.lower + own, space.upper + own].map(Vec3::to_array);
+        let [lower, upper] = [space.lower + own, space.upper + own].each(Vec3::to_array);
         let exit = |axis: usize| {
             let face = if unit[axis] > T::ZERO { upper[axis] } else { lower[axis] };
             let is_along = unit[axis] != T::ZERO;

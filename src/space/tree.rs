@@ -11,6 +11,7 @@
 
 use core::ops::ControlFlow;
 
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -73,7 +74,7 @@ impl<T: Real> Ray<T> {
         let largest = origin.x.abs().greater(origin.y.abs()).greater(origin.z.abs());
         Self {
             origin: origin.to_array(),
-            inverse: unit.to_array().map(|component| T::ONE / component),
+            inverse: unit.to_array().each(|component| T::ONE / component),
             longest,
             margin: largest * T::EPSILON * T::whole(ROUNDING),
         }
@@ -201,7 +202,7 @@ impl<T: Real> Tree<T> {
         bounds: Bounds<T>,
         visit: impl FnMut(Bounds<T>, u32) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let searched = grown(bounds).map(Vec3::to_array);
+        let searched = grown(bounds).each(Vec3::to_array);
         self.visit_where(|bounds| touch(bounds, searched), visit)
     }
 
@@ -219,7 +220,7 @@ impl<T: Real> Tree<T> {
             }
             let first = node.first as usize;
             for &(bounds, number) in &self.boxes[first..first + node.count as usize] {
-                if is_near(bounds.map(Vec3::to_array)) {
+                if is_near(bounds.each(Vec3::to_array)) {
                     visit(bounds, number)?;
                 }
             }
@@ -284,7 +285,7 @@ fn center<T: Real>([lower, upper]: &Bounds<T>, axis: usize) -> T {
 
 /// The axis along which centres spread most.
 fn widest<T: Real>(boxes: &[(Bounds<T>, u32)]) -> usize {
-    let spread: [T; 3] = core::array::from_fn(|axis| {
+    let spread: [T; 3] = array::from_fn(|axis| {
         let first = center(&boxes[0].0, axis);
         let (least, most) = boxes.iter().fold((first, first), |(least, most), (bounds, _)| {
             let c = center(bounds, axis);

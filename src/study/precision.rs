@@ -33,6 +33,7 @@ pub use side_by_side::{Comparison, SideBySide};
 
 use super::{Journal, Order, Point, Study, StudyError, Subject, Watch};
 use crate::engine::Compiled;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::SceneFile;
 use run::{Run, Track};
@@ -135,7 +136,7 @@ impl Study for PrecisionStudy {
             Ok(Outcome::SideBySide(Box::new(side_by_side)))
         })];
         for run in 1..self.runs {
-            let [single, double] = PRECISIONS.map(|name| format!("{name}, run {run}"));
+            let [single, double] = PRECISIONS.each(|name| format!("{name}, run {run}"));
             points.push(Point::new(single, seconds, move || self.run::<f32>(run)));
             points.push(Point::new(double, seconds, move || self.run::<f64>(run)));
         }

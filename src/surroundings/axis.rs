@@ -2,6 +2,7 @@
 
 use super::placement::Placement;
 use crate::lane::{Lane, Mask};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -109,7 +110,7 @@ pub(super) fn pi<T: Real>() -> T {
 /// The corners of a box that fits into a cylinder of a radius and half a height about the
 /// middle of an axis: the box around the cylinder, made smaller.
 pub(super) fn inscribed<T: Real>(axis: &Axis<T>, radius: T, half: T) -> [Vec3<T>; 2] {
-    let [low, high] = [-half, half].map(|height| axis.around(height, radius));
+    let [low, high] = [-half, half].each(|height| axis.around(height, radius));
     let [lower, upper] = joined(low, high);
     let reach = (upper - lower) * T::ratio(1, 2);
     let share = |x: T, y: T, z: T| {
@@ -121,7 +122,7 @@ pub(super) fn inscribed<T: Real>(axis: &Axis<T>, radius: T, half: T) -> [Vec3<T>
     };
     let (one, minus) = (T::ONE, -T::ONE);
     let corners = [[one, one, one], [minus, one, one], [one, minus, one], [one, one, minus]];
-    let least = corners.map(|[x, y, z]| share(x, y, z)).into_iter().fold(T::ONE, T::lesser);
+    let least = corners.each(|[x, y, z]| share(x, y, z)).into_iter().fold(T::ONE, T::lesser);
     // Short of the surface, so that rounding leaves the corners inside.
     let reach = reach * (least * (T::ONE - T::whole(8) * T::EPSILON));
     [axis.center - reach, axis.center + reach]

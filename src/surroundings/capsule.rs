@@ -11,6 +11,7 @@ use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -64,7 +65,7 @@ impl<T: Real> Capsule<T> {
     /// From the line's nearest point.
     #[inline(always)]
     fn off_line<L: Lane<Scalar = T>>(&self, place: Vec3<L>) -> Vec3<L> {
-        let [start, end] = self.ends.map(Vec3::<L>::splat);
+        let [start, end] = self.ends.each(Vec3::<L>::splat);
         let line = end - start;
         let offset = place - start;
         let share = offset.dot(line) / line.length_squared();
@@ -78,7 +79,7 @@ impl<T: Real> Capsule<T> {
 
     fn around(&self) -> [Vec3<T>; 2] {
         let reach = Vec3::new(self.radius, self.radius, self.radius);
-        let [a, b] = self.ends.map(|end| [end - reach, end + reach]);
+        let [a, b] = self.ends.each(|end| [end - reach, end + reach]);
         joined(a, b)
     }
 }
@@ -101,7 +102,7 @@ impl<T: Real> Obstacle<T> for Capsule<T> {
     }
 
     fn farthest(&self) -> f64 {
-        let [lower, upper] = self.around().map(|corner| greatest_component(corner.cast::<f64>()));
+        let [lower, upper] = self.around().each(|corner| greatest_component(corner.cast::<f64>()));
         lower.max(upper)
     }
 
@@ -159,13 +160,13 @@ impl<T: Real> Solid<T> for Capsule<T> {
         if length > T::ZERO && length.is_finite() {
             return Ok(());
         }
-        let [start, end] = self.ends.map(|end| end.cast::<f64>().to_array());
+        let [start, end] = self.ends.each(|end| end.cast::<f64>().to_array());
         let wanted = format!("it must be another point than a, {start:?}; a ball is a sphere");
         Err(Mistake::value(ENDS[1].name, end, wanted))
     }
 
     fn cast<B: Real>(&self) -> Capsule<B> {
-        let ends = self.ends.map(|end| end.cast());
+        let ends = self.ends.each(|end| end.cast());
         Capsule { ends, radius: self.radius.cast(), inside: self.inside }
     }
 
@@ -183,7 +184,7 @@ impl<T: Real> Solid<T> for Capsule<T> {
     }
 
     fn placed(&self, at: &Placement<T>) -> Self {
-        let ends = self.ends.map(|end| at.point(end));
+        let ends = self.ends.each(|end| at.point(end));
         Self { ends, radius: at.length(self.radius), inside: self.inside }
     }
 

@@ -8,6 +8,7 @@ use super::placement::Placement;
 use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature, Frustum, Plane};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -155,7 +156,7 @@ impl<T: Real> Solid<T> for Cone<T> {
 
     fn cast<B: Real>(&self) -> Cone<B> {
         let extent = match self.extent {
-            Extent::Ended(height, radii) => Extent::Ended(height.cast(), radii.map(Real::cast)),
+            Extent::Ended(height, radii) => Extent::Ended(height.cast(), radii.each(Real::cast)),
             Extent::Endless(slope) => Extent::Endless(slope.cast()),
         };
         Cone { axis: self.axis.cast(), extent, inside: self.inside }
@@ -198,7 +199,7 @@ impl<T: Real> Solid<T> for Cone<T> {
     fn placed(&self, at: &Placement<T>) -> Self {
         let extent = match self.extent {
             Extent::Ended(height, radii) => {
-                Extent::Ended(at.length(height), radii.map(|radius| at.length(radius)))
+                Extent::Ended(at.length(height), radii.each(|radius| at.length(radius)))
             }
             endless => endless,
         };

@@ -8,6 +8,7 @@ use std::collections::HashSet;
 
 use crate::compensated::{ExactSum, two_product};
 use crate::contact::greatest_component;
+use crate::numbers::array::Each;
 use crate::vec3::Vec3;
 
 /// The triangles of the hull, by the numbers of their corners, counterclockwise as seen from
@@ -18,7 +19,7 @@ pub(super) fn hull_triangles(points: &[Vec3<f64>], rounding: f64) -> Option<Vec<
     let first = first_triangles(&points, rounding)?;
     let mut triangles = first.to_vec();
     for (number, &point) in points.iter().enumerate() {
-        let sees = |triangle: &[usize; 3]| is_above(triangle.map(|k| points[k]), point);
+        let sees = |triangle: &[usize; 3]| is_above(triangle.each(|k| points[k]), point);
         let (seen, unseen): (Vec<_>, Vec<_>) = triangles.into_iter().partition(sees);
         triangles = unseen;
         let sides = || seen.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
@@ -56,7 +57,7 @@ fn first_triangles(points: &[Vec3<f64>], rounding: f64) -> Option<[[usize; 3]; 4
     if volume <= rounding * extent * area {
         return None;
     }
-    let [b, c] = if is_above([a, b, c].map(|k| points[k]), points[d]) { [c, b] } else { [b, c] };
+    let [b, c] = if is_above([a, b, c].each(|k| points[k]), points[d]) { [c, b] } else { [b, c] };
     Some([[a, b, c], [a, c, d], [c, b, d], [b, a, d]])
 }
 
@@ -69,7 +70,7 @@ fn is_above([a, b, c]: [Vec3<f64>; 3], point: Vec3<f64>) -> bool {
     let (u, v, w) = (b - a, c - a, point - a);
     let volume = u.dot(v.cross(w));
     let size = |x: f64, y: f64, z: f64| Vec3::new(x.abs(), y.abs(), z.abs());
-    let [u, v, w] = [u, v, w].map(|Vec3 { x, y, z }| size(x, y, z));
+    let [u, v, w] = [u, v, w].each(|Vec3 { x, y, z }| size(x, y, z));
     let permanent = u.x * (v.y * w.z + v.z * w.y)
         + u.y * (v.z * w.x + v.x * w.z)
         + u.z * (v.x * w.y + v.y * w.x);
@@ -86,7 +87,7 @@ fn is_above([a, b, c]: [Vec3<f64>; 3], point: Vec3<f64>) -> bool {
 
 /// Adds `± u·(v × w)`, exactly.
 fn add_volume(sum: &mut ExactSum, sign: f64, vectors: [Vec3<f64>; 3]) {
-    let [u, v, w] = vectors.map(Vec3::to_array);
+    let [u, v, w] = vectors.each(Vec3::to_array);
     for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
         for (sign, j, k) in [(sign, j, k), (-sign, k, j)] {
             let (product, rest) = two_product(u[i], v[j]);

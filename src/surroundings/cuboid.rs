@@ -12,6 +12,7 @@ use super::{Clearance, Feature, Plane};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::{Lane, Mask};
 use crate::mat3::Mat3;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -151,7 +152,7 @@ impl<T: Real> Obstacle<T> for Cuboid<T> {
     }
 
     fn farthest(&self) -> f64 {
-        let [lower, upper] = self.around().map(Vec3::cast::<f64>);
+        let [lower, upper] = self.around().each(Vec3::cast::<f64>);
         greatest_component(lower).max(greatest_component(upper))
     }
 }
@@ -261,7 +262,7 @@ impl<T: Real> Solid<T> for Cuboid<T> {
 
     /// A container is six faces.
     fn features(&self) -> Vec<Feature<T>> {
-        if self.inside { self.faces().map(Feature::Plane).into() } else { vec![(*self).into()] }
+        if self.inside { self.faces().each(Feature::Plane).into() } else { vec![(*self).into()] }
     }
 
     fn area(&self) -> Option<T> {
@@ -296,7 +297,7 @@ impl<T: Real> Solid<T> for Cuboid<T> {
     fn inscribed(&self) -> Option<[Vec3<T>; 2]> {
         let Some(rotation) = self.rotation else { return self.interior() };
         let half = ((self.upper - self.lower) * T::ratio(1, 2)).to_array();
-        let widths = rotation.columns.map(|axis| axis.x.abs() + axis.y.abs() + axis.z.abs());
+        let widths = rotation.columns.each(|axis| axis.x.abs() + axis.y.abs() + axis.z.abs());
         let fits = half.into_iter().zip(widths).map(|(half, width)| half / width);
         let reach = fits.reduce(T::lesser)?;
         let reach = Vec3::new(reach, reach, reach);

@@ -8,6 +8,7 @@ use super::placement::Placement;
 use super::slant::Slant;
 use super::solid::Solid;
 use super::{Band, Feature, Plane};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -83,7 +84,7 @@ impl<T: Real> Solid<T> for Disc<T> {
     fn check(&self) -> Result<(), Mistake> {
         point(CENTER.name, self.axis.center)?;
         direction(AXIS.name, self.axis.direction)?;
-        let [radius, hole] = [self.radius, self.hole_radius].map(T::to_f64);
+        let [radius, hole] = [self.radius, self.hole_radius].each(T::to_f64);
         positive::<T>(if hole == 0.0 { RADIUS } else { OUTER }.name, radius, "a radius")?;
         not_negative::<T>(INNER.name, hole, "a radius")?;
         if self.hole_radius < self.radius {

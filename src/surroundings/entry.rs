@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::mistake::Mistake;
+use crate::numbers::array::Each;
 
 /// What the value of a key says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -255,7 +256,7 @@ impl ShapeEntry {
         for (key, value) in &mut self.values {
             match value {
                 Value::Vector(point) if key.meaning == Meaning::Point => {
-                    *point = point.map(|component| component * factor);
+                    *point = point.each(|component| component * factor);
                 }
                 Value::Numbers(lengths) => {
                     lengths.iter_mut().for_each(|length| *length *= factor);

@@ -7,6 +7,7 @@ use super::solid::Obstacle;
 use super::{Clearance, Plane};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -55,7 +56,7 @@ impl<T: Real> Facet<T> {
         let normal = (b - a).cross(c - a);
         let normal = normal * (T::ONE / normal.length());
         Self {
-            sides: [[a, b], [b, c], [c, a]].map(|ends| Side::new(ends, true, false)),
+            sides: [[a, b], [b, c], [c, a]].each(|ends| Side::new(ends, true, false)),
             face: Some(Plane { point: a, normal }),
             size: farthest(corners),
             corners,
@@ -164,7 +165,7 @@ impl<T: Real> Side<T> {
 }
 
 fn farthest<T: Real>(corners: [Vec3<T>; 3]) -> T {
-    corners.map(greatest_component).into_iter().fold(T::ZERO, T::greater)
+    corners.each(greatest_component).into_iter().fold(T::ZERO, T::greater)
 }
 
 impl<T: Real> Obstacle<T> for Facet<T> {

@@ -8,6 +8,7 @@ use super::slant::Slant;
 use super::solid::Obstacle;
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -26,8 +27,7 @@ impl<T: Real> Frustum<T> {
     /// About an axis from the middle of its base, with the radii of its base and its top.
     pub(super) fn new(axis: Axis<T>, height: T, [base, top]: [T; 2]) -> Self {
         let corners = [[T::ZERO, T::ZERO], [base, T::ZERO], [top, height], [T::ZERO, height]];
-        let mut profile: [Slant<T>; 3] =
-            core::array::from_fn(|k| Slant::new(corners[k], corners[k + 1]));
+        let mut profile: [Slant<T>; 3] = array::from_fn(|k| Slant::new(corners[k], corners[k + 1]));
         // Also of a tip.
         profile[2].along = [-T::ONE, T::ZERO];
         Self { axis, profile }
@@ -38,7 +38,7 @@ impl<T: Real> Frustum<T> {
     fn nearest<L: Lane<Scalar = T>>(&self, place: Vec3<L>) -> (L, Vec3<L>) {
         let place = self.axis.place(place);
         let [base, wall, top] =
-            self.profile.each_ref().map(|slant| slant.beside(place.distance, place.height));
+            self.profile.refs().each(|slant| slant.beside(place.distance, place.height));
         let is_inside = !base.is_right & !wall.is_right & !top.is_right;
         top.or_nearer(wall.or_nearer(base)).about(&self.axis, &place, is_inside)
     }
@@ -56,12 +56,12 @@ impl<T: Real> Obstacle<T> for Frustum<T> {
     }
 
     fn bounds(&self) -> Option<[Vec3<T>; 2]> {
-        let [base, _, top] = self.profile.map(|slant| slant.bounds(&self.axis));
+        let [base, _, top] = self.profile.each(|slant| slant.bounds(&self.axis));
         Some(joined(base, top))
     }
 
     fn farthest(&self) -> f64 {
-        let [base, _, top] = self.profile.map(|slant| slant.bounds(&self.axis));
+        let [base, _, top] = self.profile.each(|slant| slant.bounds(&self.axis));
         let corners = [base, top].concat();
         corners.iter().map(|corner| greatest_component(corner.cast())).fold(0.0, f64::max)
     }

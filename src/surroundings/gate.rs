@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::solid::Obstacle;
 use super::{Feature, Plane};
 use crate::contact::{FreeFlight, greatest_component};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -102,7 +103,7 @@ impl<T: Real> Gate<T> {
 
     /// What is closed, by its features as a solid and as a container.
     pub(super) fn closed(features: impl Fn(bool) -> Vec<Feature<T>>) -> Self {
-        Self { sides: [false, true].map(features), opening: None }
+        Self { sides: [false, true].each(features), opening: None }
     }
 
     /// Whether a place is inside, or behind something flat.

@@ -6,6 +6,7 @@ use super::mesh::{Mesh, MeshError};
 use super::mistake::Mistake;
 use super::placement::Placement;
 use super::solid::Solid;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::Bounds;
 use crate::vec3::Vec3;
@@ -75,7 +76,7 @@ impl<T: Real> Heightfield<T> {
         let triangles: Vec<[u32; 3]> = cells
             .flat_map(|low| {
                 let [a, b, c, d] = [low, low + 1, low + columns + 1, low + columns];
-                [[a, b, c], [a, c, d]].map(|corners| corners.map(|corner| corner as u32))
+                [[a, b, c], [a, c, d]].each(|corners| corners.each(|corner| corner as u32))
             })
             .collect();
         Mesh::new(&vertices, &triangles).map(|mesh| Self { mesh })

@@ -6,6 +6,7 @@ use super::mistake::{Mistake, finite};
 use super::placement::Placement;
 use super::solid::Solid;
 use super::{Feature, Polytope};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -91,7 +92,7 @@ impl<T: Real> Solid<T> for Hull<T> {
 
     fn area(&self) -> Option<T> {
         let area = |[a, b, c]: [usize; 3]| {
-            let [a, b, c] = [a, b, c].map(|k| self.vertices[k]);
+            let [a, b, c] = [a, b, c].each(|k| self.vertices[k]);
             (b - a).cross(c - a).length() * T::ratio(1, 2)
         };
         Some(self.triangles()?.into_iter().map(area).fold(T::ZERO, |sum, area| sum + area))

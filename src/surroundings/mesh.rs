@@ -20,6 +20,7 @@ use super::mistake::Mistake;
 use super::placement::Placement;
 use super::solid::Solid;
 use crate::contact::greatest_component;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::hierarchy::Hierarchy;
 use crate::space::{Bounds, joined};
@@ -188,7 +189,7 @@ impl<T: Real> Mesh<T> {
     /// With its vertices where they are.
     fn placed_at(net: Arc<Net>, vertices: Vec<Vec3<T>>, source: Source) -> Self {
         let seams = Seams::new(&net, &vertices);
-        let corners = |triangle: u32| net.corners[triangle as usize].map(|k| vertices[k as usize]);
+        let corners = |triangle: u32| net.corners[triangle as usize].each(|k| vertices[k as usize]);
         let hierarchy = Hierarchy::new(net.len(), |triangle| around(corners(triangle)));
         let ends = vertices.iter().map(|&vertex| [vertex, vertex]);
         let bounds = ends.reduce(joined);
@@ -279,10 +280,10 @@ impl<T: Real> Mesh<T> {
     /// Visits the triangles whose boxes touch a box, in rising order.
     #[inline]
     pub(crate) fn for_each_near(&self, bounds: Bounds<T>, mut visit: impl FnMut(Bounds<T>, u32)) {
-        let [lower, upper] = bounds.map(Vec3::to_array);
+        let [lower, upper] = bounds.each(Vec3::to_array);
         self.hierarchy.for_each(bounds, |number| {
             let own = self.bounds_of(number);
-            let [low, high] = own.map(Vec3::to_array);
+            let [low, high] = own.each(Vec3::to_array);
             let touches = |k: usize| low[k] <= upper[k] && lower[k] <= high[k];
             if touches(0) & touches(1) & touches(2) {
                 visit(own, number);
@@ -292,7 +293,7 @@ impl<T: Real> Mesh<T> {
 
     #[inline]
     fn corners(&self, triangle: u32) -> [Vec3<T>; 3] {
-        self.net.corners[triangle as usize].map(|corner| self.vertices[corner as usize])
+        self.net.corners[triangle as usize].each(|corner| self.vertices[corner as usize])
     }
 
     #[inline]
@@ -330,7 +331,7 @@ fn around<T: Real>([a, b, c]: [Vec3<T>; 3]) -> Bounds<T> {
 }
 
 fn cast<T: Real>(points: &[[f64; 3]]) -> Vec<Vec3<T>> {
-    points.iter().map(|point| point.map(T::from_f64).into()).collect()
+    points.iter().map(|point| point.each(T::from_f64).into()).collect()
 }
 
 const TRIANGLES: Key = Key::new("triangles", Meaning::Triples);

@@ -1,5 +1,6 @@
 //! Mistakes in values: what is wrong with a key's value, and what would be right.
 
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -99,7 +100,7 @@ pub(crate) fn corners<T: Real>(lower: Vec3<T>, upper: Vec3<T>) -> Result<(), Mis
     if sides.iter().all(|side| *side > T::ZERO && side.is_finite()) {
         return Ok(());
     }
-    let [lower, upper] = [lower, upper].map(|corner| corner.cast::<f64>().to_array());
+    let [lower, upper] = [lower, upper].each(|corner| corner.cast::<f64>().to_array());
     let wanted = format!("every component must be below that of upper, {upper:?}");
     Err(Mistake::value("lower", lower, wanted))
 }

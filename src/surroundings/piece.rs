@@ -10,6 +10,7 @@ use crate::contact::{
     Approach, Expansion, FreeFlight, Start, fall_of_height, first_fall_of, greatest_component,
     hop_of, product,
 };
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -134,8 +135,8 @@ impl<T: Real> Piece<T> {
         let half = T::ratio(1, 2);
         let Parts { position, velocity, pull, period, rounding } =
             Parts::new(&axis, flight, time, slant.start[0].abs() + slant.start[1].abs());
-        let heights = [position, velocity, pull * half].map(|part| part.dot(axis.direction));
-        let [p, v, a] = [position, velocity, pull * half].map(|part| axis.across(part));
+        let heights = [position, velocity, pull * half].each(|part| part.dot(axis.direction));
+        let [p, v, a] = [position, velocity, pull * half].each(|part| axis.across(part));
         let squares: [T; 5] = square([p, v, a]);
         let (cosine, sine) = (slant.along[1], slant.along[0]);
         let side = if is_hollow { -flight.radius } else { flight.radius };
@@ -147,10 +148,10 @@ impl<T: Real> Piece<T> {
         let out = cosine * squares[0].sqrt();
         let line_squared: [T; 5] = product(&line, &line);
         let mut coefficients: [T; 5] =
-            core::array::from_fn(|k| cosine * cosine * squares[k] - line_squared[k]);
+            array::from_fn(|k| cosine * cosine * squares[k] - line_squared[k]);
         coefficients[0] = (out - line[0]) * (out + line[0]);
         if is_hollow {
-            coefficients = coefficients.map(|coefficient| -coefficient);
+            coefficients = coefficients.each(|coefficient| -coefficient);
         }
         let gap = if is_hollow { line[0] - out } else { out - line[0] };
         let gap = if out + line[0] < T::ZERO { -gap } else { gap };
@@ -169,7 +170,7 @@ impl<T: Real> Piece<T> {
         let reach = if is_hollow { radius - flight.radius } else { radius + flight.radius };
         let mut sum: [T; 5] = square([position, velocity, pull * half]);
         let squares: [T; 5] =
-            square([position, velocity, pull * half].map(|part| axis.across(part)));
+            square([position, velocity, pull * half].each(|part| axis.across(part)));
         sum[0] = sum[0] + (distance - reach) * (distance + reach);
         let mut coefficients: [T; N] = product(&sum, &sum);
         let four = T::whole(4) * distance * distance;
@@ -192,11 +193,8 @@ impl<T: Real> Piece<T> {
                 two * ((moving - distance * out) * outer + (moving + distance * out) * inner);
         }
         let gap = if outer < T::ZERO { -gap } else { gap };
-        if is_hollow {
-            let coefficients = coefficients.map(|coefficient| -coefficient);
-            return Expansion { coefficients, gap: -gap, rounding, period };
-        }
-        Expansion { coefficients, gap, rounding, period }
+        let expansion = Expansion { coefficients, gap, rounding, period };
+        if is_hollow { expansion.negated() } else { expansion }
     }
 
     /// From contact, the time of a flight along the piece that stands for shorter ones:
@@ -238,7 +236,7 @@ impl<T: Real> Parts<T> {
         let local = FreeFlight { center: flight.center - axis.center, ..*flight };
         let (position, velocity) = (local.position(time), local.velocity_at(time));
         let pull = flight.pull();
-        let [place, speed, strength] = [position, velocity, pull].map(greatest_component);
+        let [place, speed, strength] = [position, velocity, pull].each(greatest_component);
         let way = place + size + flight.radius;
         let period = way / (speed + (strength * way).sqrt());
         let rounding = T::EPSILON * (way + speed * time);

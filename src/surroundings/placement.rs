@@ -3,6 +3,7 @@
 use super::Shape;
 use crate::mat3::Mat3;
 use crate::motion::rotation::reference_rotation;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -50,7 +51,7 @@ impl<T: Real> Placement<T> {
         self.turn.map_or(vector, |(turn, _)| {
             let turned = turn * vector;
             let length = turned.length();
-            turned.to_array().map(|component| component / length).into()
+            turned.to_array().each(|component| component / length).into()
         })
     }
 

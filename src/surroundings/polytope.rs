@@ -10,6 +10,7 @@ use super::pieced::Pieced;
 use super::solid::Obstacle;
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -153,7 +154,7 @@ fn level_faces<T: Real>(points: &[Vec3<T>], triangles: &[[usize; 3]]) -> (Vec<us
         [(a, b), (b, c), (c, a)]
     };
     let of_side: HashMap<(usize, usize), usize> =
-        (0..triangles.len()).flat_map(|k| sides(k).map(|side| (side, k))).collect();
+        (0..triangles.len()).flat_map(|k| sides(k).each(|side| (side, k))).collect();
     let mut order: Vec<(T, usize)> =
         triangles.iter().enumerate().map(|(k, &all)| (area(all).length_squared(), k)).collect();
     order.sort_by(|a, b| b.0.partial_cmp(&a.0).unwrap_or(core::cmp::Ordering::Equal));
@@ -197,7 +198,7 @@ impl<T: Real> Obstacle<T> for Polytope<T> {
     }
 
     fn farthest(&self) -> f64 {
-        let [lower, upper] = self.bounds.map(|corner| greatest_component(corner.cast::<f64>()));
+        let [lower, upper] = self.bounds.each(|corner| greatest_component(corner.cast::<f64>()));
         lower.max(upper)
     }
 }

@@ -8,6 +8,7 @@ use super::placement::Placement;
 use super::slant::Slant;
 use super::solid::Solid;
 use super::{Band, Chain, Feature};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -227,7 +228,7 @@ impl<T: Real> Solid<T> for Revolved<T> {
     fn cast<B: Real>(&self) -> Revolved<B> {
         Revolved {
             axis: self.axis.cast(),
-            profile: self.profile.iter().map(|place| place.map(Real::cast)).collect(),
+            profile: self.profile.iter().map(|place| place.each(Real::cast)).collect(),
             is_closed: self.is_closed,
             inside: self.inside,
         }
@@ -270,7 +271,7 @@ impl<T: Real> Solid<T> for Revolved<T> {
     }
 
     fn placed(&self, at: &Placement<T>) -> Self {
-        let profile = self.profile.iter().map(|place| place.map(|length| at.length(length)));
+        let profile = self.profile.iter().map(|place| place.each(|length| at.length(length)));
         Self { axis: self.axis.placed(at), profile: profile.collect(), ..*self }
     }
 

@@ -4,6 +4,7 @@ use super::axis::{Axis, Place, pi};
 use super::entry::{AXIS, BASE, HEIGHT, RADIUS, TOP_RADIUS};
 use super::mistake::{Mistake, direction, not_negative, point, positive};
 use crate::lane::{Lane, Mask};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -95,14 +96,14 @@ impl<T: Real> Slant<T> {
     /// How far places are to the right of the line, which goes on without end.
     #[inline(always)]
     pub(super) fn rightward<L: Lane<Scalar = T>>(&self, distance: L, height: L) -> L {
-        let ([out, up], [far, high]) = (self.along.map(L::splat), self.start.map(L::splat));
+        let ([out, up], [far, high]) = (self.along.each(L::splat), self.start.each(L::splat));
         (distance - far) * up - (height - high) * out
     }
 
     /// Where places are to the line.
     #[inline(always)]
     pub(super) fn beside<L: Lane<Scalar = T>>(&self, distance: L, height: L) -> Beside<L> {
-        let [out, up] = self.along.map(L::splat);
+        let [out, up] = self.along.each(L::splat);
         let from_start = [distance - L::splat(self.start[0]), height - L::splat(self.start[1])];
         let from_end = [distance - L::splat(self.end[0]), height - L::splat(self.end[1])];
         let along = from_start[0] * out + from_start[1] * up;
@@ -139,7 +140,7 @@ impl<T: Real> Slant<T> {
     /// The corners of the box around what it makes, length.
     pub(super) fn bounds(&self, axis: &Axis<T>) -> [Vec3<T>; 2] {
         let [start, end] =
-            [self.start, self.end].map(|[distance, height]| axis.around(height, distance));
+            [self.start, self.end].each(|[distance, height]| axis.around(height, distance));
         joined(start, end)
     }
 }
@@ -154,7 +155,7 @@ pub(super) fn check_slanted<T: Real>(
     point(BASE.name, axis.center)?;
     direction(AXIS.name, axis.direction)?;
     positive::<T>(HEIGHT.name, height.to_f64(), "a height")?;
-    let [base, top] = radii.map(T::to_f64);
+    let [base, top] = radii.each(T::to_f64);
     if base == 0.0 && top == 0.0 {
         return Err(Mistake::value(RADIUS.name, base, "the base or the top must have a radius"));
     }

@@ -11,6 +11,7 @@ use super::placement::Placement;
 use super::solid::{Obstacle, Solid};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -89,7 +90,7 @@ impl<T: Real> Obstacle<T> for Torus<T> {
     }
 
     fn farthest(&self) -> f64 {
-        let [lower, upper] = self.around().map(|corner| greatest_component(corner.cast::<f64>()));
+        let [lower, upper] = self.around().each(|corner| greatest_component(corner.cast::<f64>()));
         lower.max(upper)
     }
 

@@ -6,6 +6,7 @@ use super::mistake::{Mistake, point};
 use super::placement::Placement;
 use super::solid::Solid;
 use super::{Facet, Feature, Plane};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -64,13 +65,14 @@ impl<T: Real> Solid<T> for Triangle<T> {
             point(VERTICES.name, corner)?;
         }
         let sides = [b - a, c - b, a - c];
-        let longest = sides.map(|side| side.length_squared()).into_iter().fold(T::ZERO, T::greater);
+        let longest =
+            sides.each(|side| side.length_squared()).into_iter().fold(T::ZERO, T::greater);
         let area = sides[0].cross(sides[1]).length();
         // In the precision's own rounding, the sides are along one line.
         if longest.is_finite() && area > T::whole(4) * T::EPSILON * longest {
             return Ok(());
         }
-        let corners = self.corners.map(|corner| corner.cast::<f64>().to_array());
+        let corners = self.corners.each(|corner| corner.cast::<f64>().to_array());
         let wanted = format!(
             "the corners must not lie on one line, nor farther apart than {} can square",
             T::NAME
@@ -79,7 +81,7 @@ impl<T: Real> Solid<T> for Triangle<T> {
     }
 
     fn cast<B: Real>(&self) -> Triangle<B> {
-        Triangle { corners: self.corners.map(|corner| corner.cast()) }
+        Triangle { corners: self.corners.each(|corner| corner.cast()) }
     }
 
     fn features(&self) -> Vec<Feature<T>> {
@@ -108,6 +110,6 @@ impl<T: Real> Solid<T> for Triangle<T> {
     }
 
     fn placed(&self, at: &Placement<T>) -> Self {
-        Self { corners: self.corners.map(|corner| at.point(corner)) }
+        Self { corners: self.corners.each(|corner| at.point(corner)) }
     }
 }

@@ -7,6 +7,7 @@ use super::placement::Placement;
 use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -81,7 +82,7 @@ impl<T: Real> Solid<T> for Tube<T> {
         Tube {
             axis: self.axis.cast(),
             height: self.height.cast(),
-            radii: self.radii.map(Real::cast),
+            radii: self.radii.each(Real::cast),
         }
     }
 
@@ -109,7 +110,7 @@ impl<T: Real> Solid<T> for Tube<T> {
         Self {
             axis: self.axis.placed(at),
             height: at.length(self.height),
-            radii: self.radii.map(|radius| at.length(radius)),
+            radii: self.radii.each(|radius| at.length(radius)),
         }
     }
 }

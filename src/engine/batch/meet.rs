@@ -11,6 +11,7 @@ use crate::engine::event::Struck;
 use crate::lane::{Lane, Mask};
 use crate::mat3::Mat3;
 use crate::motion::rotation::turned;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -44,13 +45,13 @@ impl<L: Lane> Meeting<L> {
     /// What of it is in one lane.
     fn in_lane(&self, lane: usize) -> Meeting<L::Scalar> {
         let of = |value: L| value.to_array().as_ref()[lane];
-        let vector = |vector: Vec3<L>| Vec3::from(vector.to_array().map(of));
+        let vector = |vector: Vec3<L>| Vec3::from(vector.to_array().each(of));
         Meeting {
             a: self.a,
             with: self.with,
             center: vector(self.center),
             offset: vector(self.offset),
-            radii: self.radii.map(of),
+            radii: self.radii.each(of),
             touching: self.touching.bits() >> lane & 1 != 0,
         }
     }
@@ -194,11 +195,11 @@ impl<T: Real, W: Laws<T>> Kind<'_, T, W> {
         events: &mut Events<T>,
     ) {
         let [center, offset, normal, tangential] =
-            [met.center, met.offset, impulses[0], impulses[1]].map(Vec3::to_arrays);
+            [met.center, met.offset, impulses[0], impulses[1]].each(Vec3::to_arrays);
         for k in (0..L::WIDTH).filter(|k| met.touching.bits() >> k & 1 != 0) {
             let seat = &moving.seats[lane + k];
             let Some(scene) = seat.scene else { continue };
-            let of = |arrays: &[L::Array; 3]| Vec3::from(arrays.each_ref().map(|x| x.as_ref()[k]));
+            let of = |arrays: &[L::Array; 3]| Vec3::from(arrays.refs().each(|x| x.as_ref()[k]));
             let [velocity, spin] = moving.motion(met.a, lane + k);
             let (partner, share) = match met.with {
                 With::Feature(feature) => {
@@ -239,7 +240,7 @@ impl<T: Real> Moving<T> {
             let has_collided = bits >> k & 1 != 0;
             if has_collided { seat.orientations.since(body, steps, dt, T::ZERO) } else { T::ZERO }
         });
-        let stored = self.orientation.each_ref().map(|column| L::load(&column[start..]));
+        let stored = self.orientation.refs().each(|column| L::load(&column[start..]));
         let stored = Mat3::from_rows(stored);
         let after = turned(stored, load(&self.spin, start), since);
         let after = Mat3::select(collided, after, stored).rows();
@@ -257,7 +258,7 @@ impl<T: Real> Moving<T> {
         let index = body * self.width + lane;
         let of = |columns: &Columns3<T>| {
             let value = |column: &Column<T>| column.get(index).copied().unwrap_or(T::ZERO);
-            Vec3::from(columns.each_ref().map(value))
+            Vec3::from(columns.refs().each(value))
         };
         [of(&self.velocity), of(&self.spin)]
     }
@@ -265,7 +266,7 @@ impl<T: Real> Moving<T> {
 
 #[inline(always)]
 fn load<L: Lane>(columns: &Columns3<L::Scalar>, start: usize) -> Vec3<L> {
-    let [x, y, z] = columns.each_ref().map(|column| L::load(&column[start..]));
+    let [x, y, z] = columns.refs().each(|column| L::load(&column[start..]));
     Vec3::new(x, y, z)
 }
 

@@ -14,6 +14,7 @@ use crate::engine::{Collisions, Compiled};
 use crate::lane::Lane;
 use crate::mat3::Mat3;
 use crate::motion::rotation::turned;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::scene::{Scene, Summation};
 use crate::vec3::Vec3;
@@ -138,7 +139,7 @@ impl<T: Real> Pack<T> {
                 spin: columns(if_so(plan.changes_spins), T::ZERO),
                 orientation: Mat3::IDENTITY
                     .rows()
-                    .map(|element| Column::new(if_so(plan.changes_spins), element)),
+                    .each(|element| Column::new(if_so(plan.changes_spins), element)),
                 has_equal_radii: !plan.has_radii,
                 mass: values(plan.has_masses),
                 inertia: values(plan.has_radii || plan.has_masses),
@@ -202,9 +203,9 @@ impl<T: Real> Pack<T> {
         let values = |values: &Values<T>| values.of((moving.width, len), lane);
         let mut bodies = Bodies {
             origin: Origin::Described,
-            position: self.position.each_ref().map(column),
-            velocity: moving.velocity.each_ref().map(column),
-            spin: moving.spin.each_ref().map(column),
+            position: self.position.refs().each(column),
+            velocity: moving.velocity.refs().each(column),
+            spin: moving.spin.refs().each(column),
             orientation: None,
             radius: values(&self.radius),
             mass: values(&moving.mass),
@@ -218,7 +219,7 @@ impl<T: Real> Pack<T> {
                 turned(moving.stored_orientation(body, lane), bodies.spin_of(body), since).rows()
             };
             let rows: Vec<[T; 9]> = (0..len).map(turned).collect();
-            bodies.orientation = Some(Box::new(core::array::from_fn(|element| {
+            bodies.orientation = Some(Box::new(array::from_fn(|element| {
                 Column::from_values(rows.iter().map(|row| row[element]), T::ZERO)
             })));
         }
@@ -356,7 +357,7 @@ impl<T: Real> Pack<T> {
 
     /// The centre of a body.
     pub fn position_of(&self, body: usize, lane: usize) -> Vec3<T> {
-        self.position.each_ref().map(|column| column[body * self.moving.width + lane]).into()
+        self.position.refs().each(|column| column[body * self.moving.width + lane]).into()
     }
 
     /// Gives a body an impulse, and lets its scene go on as a new one in that state.
@@ -379,7 +380,7 @@ impl<T: Real> Pack<T> {
         let Moving { velocity, low, spin, orientation, mass, inertia, dt, seats, .. } =
             &self.moving;
         let moving = velocity.iter().chain(low).chain(spin).chain(orientation);
-        let figures = [&self.radius, mass, inertia].map(|values| &values.column);
+        let figures = [&self.radius, mass, inertia].each(|values| &values.column);
         let others = self.gravity.iter().chain([dt]).chain(figures);
         let columns = self.position.iter().chain(&self.low).chain(moving);
         let seats = seats.iter().map(|seat| size_of::<Seat<T>>() + seat.orientations.bytes());
@@ -396,7 +397,7 @@ impl<T: Real> Moving<T> {
 
     fn need_orientations(&mut self, len: usize) {
         if self.orientation[0].is_empty() {
-            self.orientation = Mat3::IDENTITY.rows().map(|element| Column::new(len, element));
+            self.orientation = Mat3::IDENTITY.rows().each(|element| Column::new(len, element));
         }
     }
 
@@ -451,8 +452,8 @@ impl<T: Real> Moving<T> {
         for body in 0..self.velocity[0].len() / self.width {
             let since = self.seats[lane].orientations.since(body, steps, self.dt[lane], T::ZERO);
             let index = body * self.width + lane;
-            let spin = self.spin.each_ref().map(|column| column.get(index).copied());
-            let spin = spin.map(|component| component.unwrap_or(T::ZERO));
+            let spin = self.spin.refs().each(|column| column.get(index).copied());
+            let spin = spin.each(|component| component.unwrap_or(T::ZERO));
             let rows = turned(self.stored_orientation(body, lane), spin.into(), since).rows();
             for (column, element) in self.orientation.iter_mut().zip(rows) {
                 column[index] = element;
@@ -473,7 +474,7 @@ impl<T: Real> Moving<T> {
             return Mat3::IDENTITY;
         }
         let index = body * self.width + lane;
-        Mat3::from_rows(self.orientation.each_ref().map(|column| column[index]))
+        Mat3::from_rows(self.orientation.refs().each(|column| column[index]))
     }
 }
 
@@ -520,5 +521,5 @@ fn nowhere<T: Real>() -> T {
 }
 
 fn columns<T: Real>(len: usize, value: T) -> Columns3<T> {
-    core::array::from_fn(|_| Column::new(len, value))
+    array::from_fn(|_| Column::new(len, value))
 }

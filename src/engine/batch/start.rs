@@ -36,7 +36,7 @@ pub fn start<T: Compiled>(
     let width = setting.width;
     let mut portions: Vec<_> =
         (0..count).step_by(width).map(|start| (start..count.min(start + width), None)).collect();
-    workers.spread(&mut portions, |(scenes, portion)| {
+    workers.each(&mut portions, |(scenes, portion)| {
         let mut pack = setting.has_lanes().then(|| Pack::new(&setting));
         let (mut others, mut durations) = (Vec::new(), Vec::with_capacity(width));
         for (lane, k) in scenes.clone().enumerate() {

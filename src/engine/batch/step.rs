@@ -17,6 +17,7 @@ use crate::motion::flight::compensated_step;
 use crate::motion::integrator::{
     Coasting, ExplicitEuler, FlightStep, SemiImplicitEuler, VelocityVerlet,
 };
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::Summation;
 use crate::vec3::Vec3;
@@ -87,7 +88,7 @@ type Rows<'a, L> = [&'a mut [<L as Lane>::Array]; 3];
 
 #[inline(always)]
 fn rows<L: Lane>(columns: &mut Columns3<L::Scalar>) -> Rows<'_, L> {
-    columns.each_mut().map(|column| L::arrays_mut(column).0)
+    columns.muts().each(|column| L::arrays_mut(column).0)
 }
 
 #[inline(always)]
@@ -103,7 +104,7 @@ fn set_row<L: Lane>([x, y, z]: &mut Rows<'_, L>, body: usize, value: Vec3<L>) {
 /// The acceleration and the length of a step of each scene.
 #[inline(always)]
 fn field<L: Lane>(pack: &Pack<L::Scalar>) -> (Vec3<L>, L) {
-    let [x, y, z] = pack.gravity.each_ref().map(|column| L::load(column));
+    let [x, y, z] = pack.gravity.refs().each(|column| L::load(column));
     (Vec3::new(x, y, z), L::load(&pack.moving.dt))
 }
 
@@ -156,7 +157,7 @@ fn contacts<L: Lane<Scalar = T>, T: Real>(
     mut events: Option<&mut Events<T>>,
 ) {
     let Pack { position, radius, moving, .. } = pack;
-    let [x, y, z] = position.each_ref().map(|column| L::arrays(column).0);
+    let [x, y, z] = position.refs().each(|column| L::arrays(column).0);
     for a in 0..x.len() {
         let center = Vec3::<L>::from_arrays([x[a], y[a], z[a]]);
         let own = radius.load::<L>(a);

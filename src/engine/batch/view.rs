@@ -1,6 +1,7 @@
 //! View: the scenes of a pack as slices.
 
 use super::pack::Pack;
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// The scenes of a pack where they are in memory: the same body of all of them side by side.
@@ -21,8 +22,8 @@ impl<'a, T: Real> PackView<'a, T> {
     pub(super) fn of(pack: &'a Pack<T>) -> Self {
         Self {
             lanes: pack.moving.width,
-            position: pack.position.each_ref().map(|column| &**column),
-            velocity: pack.moving.velocity.each_ref().map(|column| &**column),
+            position: pack.position.refs().each(|column| &**column),
+            velocity: pack.moving.velocity.refs().each(|column| &**column),
             pack,
         }
     }

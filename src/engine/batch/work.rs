@@ -53,8 +53,8 @@ impl<T: Compiled> Batch<T> {
     /// Lets all scenes go on: those in lanes to their goals.
     pub(in crate::engine) fn go_on(&mut self, alone: &Going<'_, T>) {
         let Self { setting, workers, packs, .. } = self;
-        workers.spread(packs, |pack| pack.go(setting, u64::MAX, None));
-        workers.spread(&mut self.alone, |one| {
+        workers.each(packs, |pack| pack.go(setting, u64::MAX, None));
+        workers.each(&mut self.alone, |one| {
             if !self.faults.contains_key(&one.scene) {
                 let done = alone(one.scene, &mut one.world);
                 one.note(done);
@@ -74,14 +74,14 @@ impl<T: Compiled> Batch<T> {
         let Self { setting, workers, packs, alone, recorded, faults, .. } = self;
         while packs.iter().any(Pack::is_under_way) {
             let mut pieces: Vec<_> = packs.iter_mut().zip(&mut *recorded).collect();
-            workers.spread(&mut pieces, |(pack, events)| pack.go(setting, REPORTED, Some(events)));
+            workers.each(&mut pieces, |(pack, events)| pack.go(setting, REPORTED, Some(events)));
             for events in &mut *recorded {
                 events.sort_by_key(|(scene, _)| *scene);
                 events.iter().for_each(|(scene, event)| on_event(*scene, event));
                 events.clear();
             }
         }
-        workers.spread(alone, |alone| {
+        workers.each(alone, |alone| {
             if !faults.contains_key(&alone.scene) {
                 let Alone { world, events, .. } = alone;
                 let done = world.for_each_event(duration, |event| events.push(*event));

@@ -7,6 +7,8 @@ use super::calendar::Turn;
 use crate::compensated::CompensatedSum;
 #[cfg(feature = "files")]
 use crate::engine::snapshot::{Misfit, Reals};
+#[cfg(feature = "files")]
+use crate::numbers::array;
 use crate::real::Real;
 
 /// Turns that may pass while time stands still, for scenes of few bodies.
@@ -73,7 +75,7 @@ impl<T: Real> Clock<T> {
     pub fn restored(saved: &ClockState) -> Result<Self, Misfit> {
         let ClockState { origin, time, idle, turns, standstill, .. } = *saved;
         let reals: Vec<T> = saved.reals.read(4, "clock")?;
-        let [period, too_fast, last_collision, progress] = core::array::from_fn(|k| reals[k]);
+        let [period, too_fast, last_collision, progress] = array::from_fn(|k| reals[k]);
         Ok(Self {
             origin,
             period,

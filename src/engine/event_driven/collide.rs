@@ -13,6 +13,7 @@ use super::period::turn;
 use super::region::Region;
 use super::search::{Nearby, search};
 use super::setting::Setting;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -27,8 +28,8 @@ pub(super) fn collide_pair<T: Real>(
     nearby: [Nearby; 2],
     (time, generation): (T, u32),
 ) -> PairOutcome<T> {
-    let arrivals = slots.map(|slot| arrival(setting, region, slot as usize));
-    let outcome = pair_outcome(setting, arrivals.each_ref(), time);
+    let arrivals = slots.each(|slot| arrival(setting, region, slot as usize));
+    let outcome = pair_outcome(setting, arrivals.refs(), time);
     for k in [0, 1] {
         let partner = PartnerCode::body(slots[1 - k]);
         end_flight(setting, region, slots[k], &arrivals[k], partner, (time, generation));

@@ -11,6 +11,7 @@ use crate::real::Real;
 /// How long a point at `position` that moves with `speed` and `acceleration` stays
 /// in the span from `low` to `high`, and whether it leaves upwards. It is inside,
 /// or beyond an end by rounding.
+#[inline]
 fn leaves<T: Real>([low, high]: [T; 2], position: T, speed: T, acceleration: T) -> (T, bool) {
     let positive = |value: T| value.greater(T::ZERO);
     if acceleration == T::ZERO {

@@ -22,6 +22,7 @@ use crate::engine::{EngineError, Execution, LONGEST_RUN, Listener, Order, PartTo
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::scene::{EngineKind, Scene};
 use crate::vec3::Vec3;
@@ -258,14 +259,14 @@ impl<T: Real> Engine<T> for Driver<T> {
         let Self { setting, store, .. } = self;
         let len = store.records.len();
         let now = self.clock.now();
-        let columns = || core::array::from_fn(|_| Column::new(len, T::ZERO));
+        let columns = || array::from_fn(|_| Column::new(len, T::ZERO));
         let mut bodies = setting.bodies.clone();
         (bodies.position, bodies.velocity, bodies.spin) = (columns(), columns(), columns());
         if setting.plan.turning != Turning::Never {
             let rows = Mat3::<T>::IDENTITY.rows();
             bodies
                 .orientation
-                .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
+                .get_or_insert_with(|| Box::new(rows.each(|element| Column::new(len, element))));
         }
         for slot in 0..len {
             let at = store.index[slot] as usize;

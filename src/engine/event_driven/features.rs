@@ -7,6 +7,7 @@ use super::region::Region;
 use super::search::keep;
 use super::setting::Setting;
 use crate::contact::{FreeFlight, greatest_component};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::{Bounds, Space};
 use crate::surroundings::FeatureRef;
@@ -68,7 +69,7 @@ fn search_meshes<T: Real>(setting: &Setting<T>, region: &mut Region<'_, T>, slot
     let swept = swept(setting, &met.flight, [now, until]);
     for image in 0..setting.images.len() as u32 {
         let shift = shift(setting, &met, image);
-        let near = swept.map(|corner| corner - shift);
+        let near = swept.each(|corner| corner - shift);
         setting.features.for_each_tile(near, |_, feature| {
             if let Some(wait) = time_to_feature(setting, &met, Image { feature, image }) {
                 let time = met.flight.since + wait;

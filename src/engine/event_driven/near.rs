@@ -1,5 +1,6 @@
 //! Near: which fixed features a body in a cell can touch.
 
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::cells::{Ends, Grid, Span};
 use crate::space::joined;
@@ -93,7 +94,7 @@ impl Near {
             let bounds = feature.bounds();
             for (image, shift) in images.iter().enumerate() {
                 let this = Image { feature: number as u32, image: image as u32 };
-                let bounds = bounds.map(|bounds| bounds.map(|corner| corner + *shift));
+                let bounds = bounds.map(|bounds| bounds.each(|corner| corner + *shift));
                 if is_folded && bounds.is_none() {
                     near.everywhere.push(this);
                 } else if lists.shared == ALL {

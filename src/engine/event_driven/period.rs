@@ -18,6 +18,7 @@ use super::store::Store;
 use super::territories::{Cuts, Team};
 use super::window::Window;
 use crate::motion::rotation::turned;
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// How far bodies fly in a period, in mean distances, at the mean speed.
@@ -207,7 +208,7 @@ fn chosen_period<T: Real>(setting: &Setting<T>, store: &Store<T>, longer: u32) -
 }
 
 fn longest<T: Real>() -> f64 {
-    let [double, single] = LONGEST.map(|exponent| 2.0_f64.powi(exponent));
+    let [double, single] = LONGEST.each(|exponent| 2.0_f64.powi(exponent));
     if T::from_f64(double).is_finite() { double } else { single }
 }
 

@@ -14,6 +14,7 @@ use super::setting::Setting;
 use super::window::Window;
 use crate::engine::account::Account;
 use crate::mat3::Mat3;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::levels::Held;
 use crate::space::pieces::Pieces;
@@ -286,7 +287,7 @@ impl<T: Real> Region<'_, T> {
             self.cells.insert(level, cell, slot);
         } else {
             let cells = &mut self.cells.finest;
-            let [from, to] = [from, cell].map(|cell| cells.grid.number_of(cell));
+            let [from, to] = [from, cell].each(|cell| cells.grid.number_of(cell));
             if from == to {
                 return;
             }

@@ -179,17 +179,16 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
         // In a window others may start later than now.
         let has_pasts = region.has_pasts();
         region.worker.later.clear();
-        if region.records[self.slot as usize].since() == self.now {
-            let len = self.screened::<C, F, true>(region, len, has_pasts);
-            region.worker.account.effort.remaining += len as u64;
-            if has_pasts {
-                self.search_packs::<L, F, false>(region, len, true);
-            } else {
-                self.search_packs::<L, F, true>(region, len, false);
-            }
+        let starts = region.records[self.slot as usize].since() == self.now;
+        let len = if starts {
+            self.screened::<C, F, true>(region, len, has_pasts)
         } else {
-            let len = self.screened::<C, F, false>(region, len, has_pasts);
-            region.worker.account.effort.remaining += len as u64;
+            self.screened::<C, F, false>(region, len, has_pasts)
+        };
+        region.worker.account.effort.remaining += len as u64;
+        if starts && !has_pasts {
+            self.search_packs::<L, F, true>(region, len, false);
+        } else {
             self.search_packs::<L, F, false>(region, len, has_pasts);
         }
         if has_pasts {

@@ -9,6 +9,7 @@ use crate::engine::parts::{Counted, Counter};
 use crate::engine::plan::{Plan, Turning};
 use crate::engine::{Execution, Order};
 use crate::motion::integrator::{Coasting, VelocityVerlet};
+use crate::numbers::array;
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::space::cells::{Ends, Span};
@@ -143,7 +144,7 @@ impl<T: Real> Setting<T> {
 
     /// Gives up what the region keeps now.
     pub fn leave_to_region(&mut self) {
-        let nothing = || core::array::from_fn(|_| Column::new(0, T::ZERO));
+        let nothing = || array::from_fn(|_| Column::new(0, T::ZERO));
         (self.bodies.position, self.bodies.velocity) = (nothing(), nothing());
         if self.plan.turning == Turning::FromLastContact {
             (self.bodies.spin, self.bodies.orientation) = (nothing(), None);

@@ -13,6 +13,7 @@ use super::setting::Setting;
 use super::store::Store;
 use crate::engine::snapshot::{Misfit, Reals, Reals3, columns3, reals3_of};
 use crate::mat3::Mat3;
+use crate::numbers::array;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -56,7 +57,7 @@ pub(super) fn save<T: Real>(store: &Store<T>, clock: &Clock<T>, is_too_fast: boo
         follows: store.marks.iter().map(|mark| mark.follows).collect(),
         turning: (!turned.is_empty()).then(|| Turning {
             spin: reals3_of(spins.iter().copied()),
-            orientation: core::array::from_fn(|k| {
+            orientation: array::from_fn(|k| {
                 Reals::of(turned.iter().map(|(orientation, _)| orientation.rows()[k]))
             }),
             since: Reals::of(turned.iter().map(|(_, since)| *since)),
@@ -95,8 +96,7 @@ pub(super) fn restore<T: Real>(
                 rows.push(row.read::<T>(len, "orientations")?);
             }
             let since: Vec<T> = turning.since.read(len, "orientations")?;
-            let orientation =
-                |slot: usize| Mat3::from_rows(core::array::from_fn(|k| rows[k][slot]));
+            let orientation = |slot: usize| Mat3::from_rows(array::from_fn(|k| rows[k][slot]));
             let turned = (0..len).map(|slot| (orientation(slot), since[slot])).collect();
             Some((three(&turning.spin, "spins")?, turned))
         }

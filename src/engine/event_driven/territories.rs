@@ -11,6 +11,7 @@ use super::log::Log;
 use super::region::{Region, Worker};
 use super::store::Store;
 use super::window::Window;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::cells::{CutCells, Members};
 use crate::space::levels::Held;
@@ -160,7 +161,7 @@ impl<T: Real> Team<T> {
             false => [Some(k), None],
             true => [Some(k + 1), (k + 1 == count).then_some(0)],
         };
-        let [slots, numbers] = [&cuts.slots, &cuts.cells].map(|ends| run_ends(ends, is_odd));
+        let [slots, numbers] = [&cuts.slots, &cuts.cells].each(|ends| run_ends(ends, is_odd));
         let log_of = |k: usize| 1 + k + if is_odd { count } else { 0 };
         for (k, worker) in workers.iter_mut().enumerate() {
             worker.log = core::mem::replace(&mut store.logs[log_of(k)], Log::new(log_of(k)));
@@ -232,7 +233,7 @@ fn run_ends(ends: &[usize], is_odd: bool) -> Vec<usize> {
 
 /// Where runs start, by where all of them end.
 fn starts(ends: &[usize], runs: [Option<usize>; 2]) -> [usize; 2] {
-    runs.map(|run| run.map_or(0, |run| start(ends, run)))
+    runs.each(|run| run.map_or(0, |run| start(ends, run)))
 }
 
 /// Where a part starts, by where all of them end.
@@ -254,6 +255,6 @@ impl<'a, V> Dealt<'a, V> {
     }
 
     fn deal(&mut self, runs: [Option<usize>; 2]) -> [&'a mut [V]; 2] {
-        runs.map(|run| run.and_then(|run| self.runs[run].take()).unwrap_or_default())
+        runs.each(|run| run.and_then(|run| self.runs[run].take()).unwrap_or_default())
     }
 }

@@ -13,6 +13,7 @@ use super::report::{feature_event, pair_event};
 use super::search::{Blocked, find, search};
 use super::setting::Setting;
 use crate::engine::Listener;
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// The next turn, left in the calendar.
@@ -82,7 +83,7 @@ pub(super) fn take_turn<T: Real>(
                 Ok(other) if region.marks[other as usize].stamp == expected.stamp => {
                     let is_first = region.index[slot as usize] < region.index[other as usize];
                     let pair = if is_first { [slot, other] } else { [other, slot] };
-                    let cells = pair.map(|slot| region.agendas[slot as usize].cell);
+                    let cells = pair.each(|slot| region.agendas[slot as usize].cell);
                     let nearby = [
                         find(setting, region, 0, pair[0], cells[0])?,
                         find(setting, region, 1, pair[1], cells[1])?,
@@ -90,7 +91,7 @@ pub(super) fn take_turn<T: Real>(
                     region.worker.calendar.forget(time, pair);
                     let made = collide_pair(setting, region, clock, pair, nearby, when);
                     if let Some(on_event) = on_event {
-                        let bodies = pair.map(|slot| region.index[slot as usize]);
+                        let bodies = pair.each(|slot| region.index[slot as usize]);
                         on_event(&pair_event(clock, bodies, &made, time));
                     }
                     return Ok(true);

@@ -19,6 +19,7 @@ use super::region::Region;
 use super::search::{Blocked, Nearby, find, search};
 use super::setting::Setting;
 use super::undo::{can_look_again, look_again, plan_undo, undo};
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// A stretch of a period.
@@ -209,7 +210,7 @@ fn collide_now<T: Real>(
     pair: [u32; 2],
     key: Key<T>,
 ) -> Result<(), Blocked> {
-    let cells = pair.map(|slot| cell_at(setting, region, slot, key.time));
+    let cells = pair.each(|slot| cell_at(setting, region, slot, key.time));
     let nearby = find_both(setting, region, pair, cells, 2)?;
     collide(setting, region, clock, pair, cells, nearby, &key);
     Ok(())

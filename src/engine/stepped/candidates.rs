@@ -8,6 +8,7 @@ use crate::bodies::Columns3;
 use crate::column::Column;
 use crate::lane::Lane;
 use crate::motion::flight::Wrap;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -57,9 +58,9 @@ fn positions<L: Lane<Scalar = T>, T: Real>(
     ago: T,
 ) -> Columns3<T> {
     let mut moved = state.position.clone();
-    let [x, y, z] = moved.each_mut().map(Column::padded_mut);
+    let [x, y, z] = moved.muts().each(Column::padded_mut);
     let load = |columns: &Columns3<T>, slot: usize| {
-        let [x, y, z] = columns.each_ref().map(|column| L::load(&column.padded()[slot..]));
+        let [x, y, z] = columns.refs().each(|column| L::load(&column.padded()[slot..]));
         Vec3::new(x, y, z)
     };
     for slot in (0..state.index.len()).step_by(L::WIDTH) {

@@ -8,6 +8,7 @@ use super::state::{Low, State};
 use crate::lane::Lane;
 use crate::motion::flight::{Remainders, Wrap};
 use crate::motion::turning::turn;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::OpenSpace;
 use crate::vec3::Vec3;
@@ -18,12 +19,11 @@ const FLOWN: usize = 1 << 14;
 /// Flies all bodies through one step and returns how far any has moved at most,
 /// with a margin for the rounding.
 pub(super) fn fly<T: Real>(setting: &Setting<T>, state: &mut State<T>) -> T {
-    let [mut x, mut y, mut z] = state.position.each_mut().map(|column| column.chunks_mut(FLOWN));
-    let mut velocity = state.velocity.each_mut().map(|column| column.chunks_mut(FLOWN));
+    let [mut x, mut y, mut z] = state.position.muts().each(|column| column.chunks_mut(FLOWN));
+    let mut velocity = state.velocity.muts().each(|column| column.chunks_mut(FLOWN));
     let mut low = state.low.as_mut().map(|low| {
         let Low { position, velocity } = &mut **low;
-        [position, velocity]
-            .map(|columns| columns.each_mut().map(|column| column.chunks_mut(FLOWN)))
+        [position, velocity].each(|columns| columns.muts().each(|column| column.chunks_mut(FLOWN)))
     });
     let mut chunks = Vec::with_capacity(setting.plan.bodies.div_ceil(FLOWN));
     while let (Some(x), Some(y), Some(z)) = (x.next(), y.next(), z.next()) {
@@ -31,11 +31,11 @@ pub(super) fn fly<T: Real>(setting: &Setting<T>, state: &mut State<T>) -> T {
         chunks.push(([x, y, z], next(&mut velocity), low, T::ZERO));
     }
     setting.workers.each(&mut chunks, |(position, velocity, low, fastest)| {
-        let position = position.each_mut().map(|column| &mut **column);
-        let velocity = velocity.each_mut().map(|column| &mut **column);
+        let position = position.muts().each(|column| &mut **column);
+        let velocity = velocity.muts().each(|column| &mut **column);
         let remainders = low.as_mut().map(|[position, velocity]| Remainders {
-            position: position.each_mut().map(|column| &mut **column),
-            velocity: velocity.each_mut().map(|column| &mut **column),
+            position: position.muts().each(|column| &mut **column),
+            velocity: velocity.muts().each(|column| &mut **column),
         });
         let lanes = setting.plan.sweep_lanes;
         *fastest = in_lanes!(sweep lanes, fly_some::<T>(setting, position, velocity, remainders));
@@ -47,7 +47,7 @@ pub(super) fn fly<T: Real>(setting: &Setting<T>, state: &mut State<T>) -> T {
 
 /// The next chunk of each column.
 fn next<'a, T>(columns: &mut [ChunksMut<'a, T>; 3]) -> [&'a mut [T]; 3] {
-    columns.each_mut().map(|column| column.next().unwrap_or_default())
+    columns.muts().each(|column| column.next().unwrap_or_default())
 }
 
 /// Flies some bodies through one step and returns the greatest `v·v`.
@@ -87,16 +87,16 @@ fn fly_in<L: Lane<Scalar = T>, T: Real, S: Wrap<T>>(
 /// `M ← R M` for every body.
 pub(super) fn rotate<T: Real>(setting: &Setting<T>, state: &mut State<T>) {
     let Some(rows) = &mut state.orientation else { return };
-    let mut rows = rows.each_mut().map(|row| row.chunks_mut(FLOWN));
-    let mut spins = state.spin.each_ref().map(|column| column.chunks(FLOWN));
+    let mut rows = rows.muts().each(|row| row.chunks_mut(FLOWN));
+    let mut spins = state.spin.refs().each(|column| column.chunks(FLOWN));
     let mut chunks: Vec<_> = (0..setting.plan.bodies.div_ceil(FLOWN))
         .map(|_| {
-            let rows = rows.each_mut().map(|row| row.next().unwrap_or_default());
-            (rows, spins.each_mut().map(|column| column.next().unwrap_or_default()))
+            let rows = rows.muts().each(|row| row.next().unwrap_or_default());
+            (rows, spins.muts().each(|column| column.next().unwrap_or_default()))
         })
         .collect();
     setting.workers.each(&mut chunks, |(rows, spin)| {
-        let rows = rows.each_mut().map(|row| &mut **row);
+        let rows = rows.muts().each(|row| &mut **row);
         let lanes = setting.plan.sweep_lanes;
         in_lanes!(sweep lanes, turn_some::<T>(rows, *spin, setting.dt));
     });

@@ -9,6 +9,7 @@ use super::state::Low;
 use crate::bodies::{Bodies, Columns3};
 use crate::column::Column;
 use crate::engine::snapshot::{Misfit, Reals, Reals3, columns3, reals3};
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// The bodies by index, whatever slots they are in.
@@ -49,7 +50,7 @@ pub(super) fn save<T: Real>(region: &Region<T>, clock: &Clock) -> StepState {
         orientation: state
             .orientation
             .as_ref()
-            .map(|rows| rows.each_ref().map(|column| Reals::of(column.iter().copied()))),
+            .map(|rows| rows.refs().each(|column| Reals::of(column.iter().copied()))),
         marks: state.orientations.save(),
     }
 }
@@ -84,7 +85,7 @@ pub(super) fn restore<T: Real>(
         None if state.orientation.is_none() => None,
         None => return Err(Misfit("orientations")),
         Some(rows) => {
-            let mut columns: [Column<T>; 9] = core::array::from_fn(|_| Column::new(0, T::ZERO));
+            let mut columns: [Column<T>; 9] = array::from_fn(|_| Column::new(0, T::ZERO));
             for (column, row) in columns.iter_mut().zip(rows) {
                 *column = row.column(len, "orientations")?;
             }

@@ -7,6 +7,7 @@ use crate::engine::plan::{Plan, Turning};
 use crate::mat3::Mat3;
 use crate::motion::flight::Wrap;
 use crate::motion::rotation::turned;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::scene::{Impact, Summation};
 use crate::space::PeriodicBox;
@@ -62,7 +63,7 @@ pub(super) struct Low<T: Real> {
 
 impl<T: Real> Low<T> {
     fn new(len: usize, has_field: bool) -> Self {
-        let columns = |len| core::array::from_fn(|_| Column::new(len, T::ZERO));
+        let columns = |len| array::from_fn(|_| Column::new(len, T::ZERO));
         Self { position: columns(len), velocity: columns(if has_field { len } else { 0 }) }
     }
 }
@@ -168,12 +169,12 @@ impl<T: Real> State<T> {
         let len = self.index.len();
         let rows = Mat3::<T>::IDENTITY.rows();
         self.orientation
-            .get_or_insert_with(|| Box::new(rows.map(|element| Column::new(len, element))));
+            .get_or_insert_with(|| Box::new(rows.each(|element| Column::new(len, element))));
     }
 
     /// Columns by slot in the scene's order.
     pub fn by_index(&self, columns: &Columns3<T>) -> Columns3<T> {
-        core::array::from_fn(|axis| {
+        array::from_fn(|axis| {
             let mut ordered = Column::new(self.index.len(), T::ZERO);
             for (&value, &index) in columns[axis].iter().zip(&self.index) {
                 ordered[index as usize] = value;
@@ -207,7 +208,7 @@ impl<T: Real> State<T> {
         };
         let is_turning = self.spin.iter().any(|column| column.iter().any(|&w| w != T::ZERO));
         if is_turning || self.orientation.is_some() {
-            let mut rows = Box::new(core::array::from_fn(|_| Column::new(len, T::ZERO)));
+            let mut rows = Box::new(array::from_fn(|_| Column::new(len, T::ZERO)));
             for index in 0..len {
                 let since = self.orientations.since(index, steps, dt, T::ZERO);
                 let turned = self.turned(index, since);
@@ -222,7 +223,7 @@ impl<T: Real> State<T> {
     fn turned(&self, index: usize, time: T) -> Mat3<T> {
         let stored = match &self.orientation {
             None => Mat3::IDENTITY,
-            Some(rows) => Mat3::from_rows(core::array::from_fn(|k| rows[k][index])),
+            Some(rows) => Mat3::from_rows(array::from_fn(|k| rows[k][index])),
         };
         turned(stored, at(&self.spin, index), time)
     }

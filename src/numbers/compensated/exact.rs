@@ -3,6 +3,8 @@
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
+use crate::numbers::array::Each;
+
 /// Binary digits of a limb.
 const DIGITS: u32 = 32;
 
@@ -121,7 +123,7 @@ impl ExactSum {
         digits |= u128::from(limbs[..lowest].iter().any(|&limb| limb != 0));
         let exponent = (DIGITS as usize * lowest) as i32 - 1074;
         // In two steps: one power of two may be out of range.
-        let [one, other] = [exponent / 2, exponent - exponent / 2].map(|k| 2.0_f64.powi(k));
+        let [one, other] = [exponent / 2, exponent - exponent / 2].each(|k| 2.0_f64.powi(k));
         let magnitude = digits as f64 * one * other;
         if is_negative { -magnitude } else { magnitude }
     }

@@ -3,6 +3,7 @@
 use wide::{f32x8, f32x16, f64x4, f64x8};
 
 use super::{Lane, Mask};
+use crate::numbers::array;
 
 impl Mask for bool {
     #[inline(always)]
@@ -151,7 +152,7 @@ macro_rules! pack {
 
             #[inline(always)]
             fn from_fn(value: impl FnMut(usize) -> $real) -> Self {
-                wide::$pack::new(core::array::from_fn(value))
+                wide::$pack::new(array::from_fn(value))
             }
 
             #[inline(always)]
@@ -206,28 +207,28 @@ pack!(
 #[inline(always)]
 fn eight_of_f32(records: &[&[f32; 8]]) -> [f32x8; 8] {
     let records = &records[..8];
-    f32x8::transpose(core::array::from_fn(|k| f32x8::new(*records[k])))
+    f32x8::transpose(array::from_fn(|k| f32x8::new(*records[k])))
 }
 
 #[inline(always)]
 fn sixteen_of_f32(records: &[&[f32; 8]]) -> [f32x16; 8] {
     let (first, last) = (eight_of_f32(&records[..8]), eight_of_f32(&records[8..16]));
-    core::array::from_fn(|j| wide::bytemuck::cast([first[j], last[j]]))
+    array::from_fn(|j| wide::bytemuck::cast([first[j], last[j]]))
 }
 
 #[inline(always)]
 fn four_of_f64(records: &[&[f64; 8]]) -> [f64x4; 8] {
     let records = &records[..4];
-    let halves: [[f64x4; 4]; 2] = core::array::from_fn(|half| {
-        f64x4::transpose(core::array::from_fn(|k| {
-            f64x4::new(core::array::from_fn(|j| records[k][4 * half + j]))
+    let halves: [[f64x4; 4]; 2] = array::from_fn(|half| {
+        f64x4::transpose(array::from_fn(|k| {
+            f64x4::new(array::from_fn(|j| records[k][4 * half + j]))
         }))
     });
-    core::array::from_fn(|j| halves[j / 4][j % 4])
+    array::from_fn(|j| halves[j / 4][j % 4])
 }
 
 #[inline(always)]
 fn eight_of_f64(records: &[&[f64; 8]]) -> [f64x8; 8] {
     let (first, last) = (four_of_f64(&records[..4]), four_of_f64(&records[4..8]));
-    core::array::from_fn(|j| wide::bytemuck::cast([first[j], last[j]]))
+    array::from_fn(|j| wide::bytemuck::cast([first[j], last[j]]))
 }

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::radial::for_each_pair_within;
 use super::tally::Tally;
 use super::{Bins, Chosen, Findings, Members, Moment, Unfit};
+use crate::numbers::array::Each;
 use crate::space::Space;
 use crate::vec3::Vec3;
 
@@ -128,7 +129,7 @@ impl BondOrder {
 /// `q₄` and `q₆` of sums over a number of bonds.
 fn order(sums: &Harmonics, bonds: u32) -> [f64; 2] {
     let mut orders = sums.iter();
-    DEGREES.map(|degree| {
+    DEGREES.each(|degree| {
         let own = orders.by_ref().take(degree + 1).enumerate();
         // Orders below 0 have the absolute values of those above.
         let square: f64 =

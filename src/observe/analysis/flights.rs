@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::tally::{Figure, Sums, Tally, columns};
 use super::{Bins, Chosen, Findings, Members, Unfit};
 use crate::engine::{Event, Partner};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -115,7 +116,7 @@ impl CollisionStatistics {
     fn choose(&mut self) {
         let first = core::mem::take(&mut self.first);
         let mean = |k: usize| first.iter().map(|it| it[k]).sum::<f64>() / first.len() as f64;
-        let bins = [0, 1].map(|k| Bins::new(0.0, MEANS * mean(k), self.count));
+        let bins = [0, 1].each(|k| Bins::new(0.0, MEANS * mean(k), self.count));
         for flight in first {
             for (k, bins) in bins.iter().enumerate() {
                 if let Some(bin) = bins.of(flight[k]) {

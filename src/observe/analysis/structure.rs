@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::tally::{Tally, columns};
 use super::{Bins, Chosen, Findings, Members, Moment, Unfit};
+use crate::numbers::array;
 use crate::trigonometry::sin_cos;
 
 /// How many bins, by default.
@@ -53,7 +54,7 @@ impl StructureFactor {
         let bins = Bins::new(from.unwrap_or(0.0), to, chosen.bins(BINS));
         let number = |waves: &[i32; 3]| {
             let k: [f64; 3] =
-                core::array::from_fn(|axis| 2.0 * PI * f64::from(waves[axis]) / sides[axis]);
+                array::from_fn(|axis| 2.0 * PI * f64::from(waves[axis]) / sides[axis]);
             (k[0] * k[0] + k[1] * k[1] + k[2] * k[2]).sqrt()
         };
         // For each bin directions that are spread over half of a sphere along a spiral, each
@@ -64,7 +65,7 @@ impl StructureFactor {
             let middle = bins.middle(bin);
             let near: BTreeSet<[i32; 3]> = directions()
                 .map(|way| {
-                    core::array::from_fn(|axis| {
+                    array::from_fn(|axis| {
                         (middle * way[axis] * sides[axis] / (2.0 * PI)).round() as i32
                     })
                 })
@@ -88,7 +89,7 @@ impl StructureFactor {
     pub fn look(&mut self, moment: &Moment<'_>) {
         let Some(space) = moment.space else { return };
         let (lower, sides) = (space.lower.to_array(), space.sides().to_array());
-        let most: [usize; 3] = core::array::from_fn(|axis| {
+        let most: [usize; 3] = array::from_fn(|axis| {
             let most = self.waves.iter().map(|waves| waves[axis].unsigned_abs()).max();
             most.unwrap_or(0) as usize
         });

@@ -55,8 +55,8 @@ impl<W: Write> EventArrays<W> {
     /// # Errors
     /// If these cannot be made.
     pub fn new(path: &Path, output: W) -> io::Result<Self> {
-        let columns = EVENT_COLUMNS.map(|name| NpzColumn::beside(path, name));
-        let columns = columns.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let columns = EVENT_COLUMNS.iter().map(|name| NpzColumn::beside(path, name));
+        let columns = columns.collect::<Result<Vec<_>, _>>()?;
         let pending = columns.iter().map(|_| Vec::with_capacity(PIECE + 8)).collect();
         Ok(Self { output, columns, pending, events: 0, precision: "<f8", failure: None })
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::Frame;
 use super::figures::quaternion_of;
 use crate::bodies::PerBody;
+use crate::numbers::array::Each;
 use crate::observe::species;
 use crate::output::is_single;
 use crate::output::npz::{Archive, NpzColumn, store_array};
@@ -54,7 +55,7 @@ impl<W: Write> NumPy<W> {
         self.bodies = bodies.len();
         self.frames += 1;
         self.corners = frame.space.map(|space| {
-            [space.lower, space.upper].map(|corner| {
+            [space.lower, space.upper].each(|corner| {
                 let mut bytes = Vec::new();
                 corner.to_array().iter().for_each(|value| value.write_bits(&mut bytes));
                 bytes

@@ -7,6 +7,7 @@ use std::io;
 use super::Frame;
 use super::figures::{bounds, quaternion_of};
 use super::rows::{self, Figures, numbers, whole};
+use crate::numbers::array::Each;
 use crate::observe::species;
 use crate::real::Real;
 
@@ -36,7 +37,7 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
         whole(row, [frame.number(index) + 1, i64::from(species[index])]);
         figures.add(row, bodies, index);
         numbers(row, bodies.position_of(index).to_array());
-        whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
+        whole(row, frame.images.map_or([0; 3], |images| images.of(index)).each(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());
         numbers(row, bodies.spin_of(index).to_array());
         numbers(row, quaternion_of(bodies, index));

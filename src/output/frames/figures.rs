@@ -3,6 +3,7 @@
 use super::Frame;
 use crate::bodies::Bodies;
 use crate::mat3::Mat3;
+use crate::numbers::array::Each;
 use crate::real::Real;
 
 /// The corners of the periodic box, or of the box around all bodies.
@@ -38,7 +39,7 @@ pub fn quaternion_of<T: Real>(bodies: &Bodies<T>, index: usize) -> [T; 4] {
 /// Of the four ways to find it, each of which divides by one component, the one by the
 /// greatest (Shepperd 1978).
 fn quaternion<T: Real>(rotation: Mat3<T>) -> [T; 4] {
-    let m: [f64; 9] = rotation.rows().map(Real::to_f64);
+    let m: [f64; 9] = rotation.rows().each(Real::to_f64);
     let trace = m[0] + m[4] + m[8];
     // Each is 4 q_k q_j, with the greatest q_k.
     let products = if trace >= m[0].max(m[4]).max(m[8]) {
@@ -53,7 +54,7 @@ fn quaternion<T: Real>(rotation: Mat3<T>) -> [T; 4] {
     let length = products.iter().map(|q| q * q).sum::<f64>().sqrt();
     let length = if products[0] < 0.0 { -length } else { length };
     // Adding 0 takes the sign off a zero.
-    products.map(|q| T::from_f64(q / length + 0.0))
+    products.each(|q| T::from_f64(q / length + 0.0))
 }
 
 #[cfg(test)]

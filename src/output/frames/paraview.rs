@@ -12,6 +12,7 @@ use base64::engine::general_purpose::STANDARD;
 use super::super::{Listed, WholeFile, is_single};
 use super::Frame;
 use super::figures::quaternion_of;
+use crate::numbers::array::Each;
 use crate::observe::species;
 use crate::real::Real;
 
@@ -120,7 +121,7 @@ fn write_points<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> 
     });
     array(output, "Orientation", 4, orientation)?;
     if let Some(images) = frame.images {
-        array(output, "image", 3, each().flat_map(|k| images.of(k).map(i64::from)))?;
+        array(output, "image", 3, each().flat_map(|k| images.of(k).each(i64::from)))?;
     }
     writeln!(output, "    </PointData>\n    </Piece>\n  </PolyData>\n</VTKFile>")?;
     output.flush()

@@ -5,6 +5,7 @@ use std::io;
 use super::Frame;
 use super::figures::{bounds, quaternion_of};
 use super::rows::{self, Figures, numbers, whole};
+use crate::numbers::array::{self, Each};
 use crate::observe::species;
 use crate::real::Real;
 
@@ -16,7 +17,7 @@ const PROPERTIES: &str = "species:S:1:pos:R:3:id:I:1:radius:R:1:mass:R:1:image:I
 pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io::Result<()> {
     let bodies = frame.bodies;
     let [lower, upper] = bounds(frame);
-    let [x, y, z]: [T; 3] = core::array::from_fn(|axis| upper[axis] - lower[axis]);
+    let [x, y, z]: [T; 3] = array::from_fn(|axis| upper[axis] - lower[axis]);
     let zero = T::ZERO;
     let mut head = format!("{}\nLattice=\"", bodies.len()).into_bytes();
     numbers(&mut head, [x, zero, zero, zero, y, zero, zero, zero, z]);
@@ -41,7 +42,7 @@ pub fn write<T: Real, W: io::Write>(output: &mut W, frame: &Frame<'_, T>) -> io:
         numbers(row, bodies.position_of(index).to_array());
         whole(row, [frame.number(index)]);
         figures.add(row, bodies, index);
-        whole(row, frame.images.map_or([0; 3], |images| images.of(index)).map(i64::from));
+        whole(row, frame.images.map_or([0; 3], |images| images.of(index)).each(i64::from));
         numbers(row, bodies.velocity_of(index).to_array());
         numbers(row, bodies.spin_of(index).to_array());
         let [w, x, y, z] = quaternion_of(bodies, index);

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::bodies::{Columns, NAMES, checked_count};
 use super::zip::{Entry, bytes_at, entries};
 use super::{FramePlace, RecordedFrame, Wrong};
+use crate::numbers::array;
 use crate::space::PeriodicBox;
 
 /// The kinds of numbers that can be read.
@@ -28,7 +29,7 @@ impl Kind {
     /// Numbers from their bytes.
     fn read(self, bytes: &[u8]) -> Vec<f64> {
         let four = |bytes: &[u8]| [bytes[0], bytes[1], bytes[2], bytes[3]];
-        let eight = |bytes: &[u8]| core::array::from_fn(|k| bytes[k]);
+        let eight = |bytes: &[u8]| array::from_fn(|k| bytes[k]);
         let pieces = bytes.chunks_exact(self.size() as usize);
         match self {
             Self::F4 => pieces.map(|it| f64::from(f32::from_le_bytes(four(it)))).collect(),

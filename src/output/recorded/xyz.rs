@@ -3,6 +3,7 @@
 use super::bodies::{Columns, checked_count};
 use super::lines::{Lines, finite, number};
 use super::{RecordedFrame, Wrong};
+use crate::numbers::array;
 use crate::space::PeriodicBox;
 
 /// Reads a frame; `None` behind the last one.
@@ -72,7 +73,7 @@ impl Heading {
                 if !lattice.iter().enumerate().all(is_right) {
                     return Err("the Lattice is no box with right angles".to_owned());
                 }
-                let upper = core::array::from_fn(|axis| origin[axis] + lattice[4 * axis]);
+                let upper = array::from_fn(|axis| origin[axis] + lattice[4 * axis]);
                 Some(PeriodicBox::new([origin[0], origin[1], origin[2]], upper))
             }
             None if is_periodic => return Err("periodic space needs a Lattice".to_owned()),

@@ -7,6 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use crc32fast::Hasher;
 
 use super::{FramePlace, Wrong};
+use crate::numbers::array::Each;
 
 /// An entry of an archive.
 #[derive(Clone, Debug)]
@@ -92,7 +93,7 @@ pub fn entries(file: &mut File) -> Result<Vec<Entry>, Wrong> {
         let (method, crc) = (field(10, 2)?, field(16, 4)?);
         let (packed, mut size, mut local) = (field(20, 4)?, field(24, 4)?, field(42, 4)?);
         let [name, extra, comment] =
-            [field(28, 2)?, field(30, 2)?, field(32, 2)?].map(|it| it as usize);
+            [field(28, 2)?, field(30, 2)?, field(32, 2)?].each(|it| it as usize);
         let own = directory.get(at + 46..at + 46 + name).ok_or_else(here)?;
         let own = String::from_utf8_lossy(own).into_owned();
         // In the order of the fields that are full.

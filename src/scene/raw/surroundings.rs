@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 use super::{Number, Numbers, Pair, Vector, Whole};
+use crate::numbers::array::Each;
 use crate::surroundings::{FilePath, Key, Meaning, ShapeEntry, ShapeKind, Value, shape_kinds};
 
 /// An entry.
@@ -34,7 +35,7 @@ impl RawSurroundings {
         }
         let center = self.rotation.as_mut().and_then(|rotation| rotation.center.as_mut());
         for Vector(point) in self.translation.as_mut().into_iter().chain(center) {
-            *point = point.map(|component| component * factor);
+            *point = point.each(|component| component * factor);
         }
     }
 }

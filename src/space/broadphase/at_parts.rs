@@ -8,6 +8,7 @@ use core::ops::Range;
 use super::candidates::{Chunk, SHELLS, shell};
 use crate::bodies::{Figure, PerBody};
 use crate::lane::{Lane, Mask};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::{Bounds, FixedParts, Tree, joined};
 use crate::vec3::Vec3;
@@ -104,7 +105,7 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             let (group, bounds) = self.group(&rest);
             rest.start = group.end;
             for (number, &image) in (0..).zip(self.images) {
-                let bounds = bounds.map(|corner| corner + image);
+                let bounds = bounds.each(|corner| corner + image);
                 let mut keep = |bounds, part| {
                     self.near_box::<L>(&group, image, bounds, |body| {
                         found.push((part, body, number));
@@ -182,7 +183,7 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
         [lower, upper]: Bounds<T>,
         mut visit: impl FnMut(u32),
     ) {
-        let [lower, upper] = [lower - image, upper - image].map(Vec3::<L>::splat);
+        let [lower, upper] = [lower - image, upper - image].each(Vec3::<L>::splat);
         for start in bodies.clone().step_by(L::WIDTH) {
             let center = self.centers::<L>(start);
             let beyond = |least: L, c: L, most: L| (least - c).greater(c - most).greater(L::ZERO);
@@ -234,6 +235,6 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
 
 /// Whether a box is at most `times` as wide as another one along each axis.
 fn is_within<T: Real>(all: Bounds<T>, one: Bounds<T>, times: T) -> bool {
-    let [all, one] = [all, one].map(|[lower, upper]| (upper - lower).to_array());
+    let [all, one] = [all, one].each(|[lower, upper]| (upper - lower).to_array());
     (0..3).all(|k| all[k] <= one[k] * times)
 }

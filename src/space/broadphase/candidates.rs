@@ -7,6 +7,7 @@ use super::at_parts::AtParts;
 use super::grid::Grid;
 use crate::bodies::Figure;
 use crate::lane::{Lane, Mask};
+use crate::numbers::array;
 use crate::real::Real;
 use crate::space::Space;
 use crate::vec3::Vec3;
@@ -158,7 +159,7 @@ pub(super) struct Search<'a, T> {
 /// The greatest gaps of all shells of a skin but the last, lengths.
 pub(super) fn shell_ends<T: Real>(skin: T) -> [T; SHELLS - 1] {
     let shell = skin / T::whole(SHELLS as i32);
-    core::array::from_fn(|k| shell * T::whole(k as i32 + 1))
+    array::from_fn(|k| shell * T::whole(k as i32 + 1))
 }
 
 /// The shell that a gap is in.

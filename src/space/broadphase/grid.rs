@@ -8,6 +8,7 @@
 
 use core::ops::Range;
 
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::vec3::Vec3;
@@ -27,12 +28,12 @@ impl<T: Real> Grid<T> {
     /// A grid over the points between `lower` and `upper` with cells of at
     /// least `side`, and no more than `most` of them.
     pub fn open(lower: Vec3<T>, upper: Vec3<T>, side: T, most: usize) -> Self {
-        let cells = few((upper - lower).to_array().map(|length| along(length, side) + 1), most);
+        let cells = few((upper - lower).to_array().each(|length| along(length, side) + 1), most);
         let per_length = T::ONE / side;
         Self {
             origin: lower,
             cells_per_length: Vec3::new(per_length, per_length, per_length),
-            cells: cells.map(|n| n as u32),
+            cells: cells.each(|n| n as u32),
         }
     }
 
@@ -40,16 +41,16 @@ impl<T: Real> Grid<T> {
     /// `most` of them have indices of their own: the box is a whole number of grids wide.
     pub fn periodic(space: &PeriodicBox<T>, side: T, most: usize) -> Self {
         let sides = space.sides().to_array();
-        let wanted = sides.map(|length| along(length, side).max(1));
+        let wanted = sides.each(|length| along(length, side).max(1));
         let cells = few(wanted, most);
-        let per_length = core::array::from_fn(|k| {
+        let per_length = array::from_fn(|k| {
             let grids = wanted[k] / cells[k];
             T::from_f64((grids * cells[k]) as f64) / sides[k]
         });
         Self {
             origin: space.lower,
             cells_per_length: per_length.into(),
-            cells: cells.map(|n| n as u32),
+            cells: cells.each(|n| n as u32),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Axis: the cells along one axis, and how all cells are numbered.
 
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 
 /// The most cells along an axis.
@@ -74,9 +75,9 @@ pub(super) const BLOCK: i32 = 4;
 /// How cells are numbered block by block: cells along the sides of a block, and
 /// blocks along each axis.
 pub(super) fn blocks(counts: [i32; 3]) -> [[u32; 3]; 2] {
-    let counts = counts.map(|count| count as u32);
-    let sides = counts.map(|count| count.min(BLOCK as u32));
-    [sides, core::array::from_fn(|k| counts[k].div_ceil(sides[k]))]
+    let counts = counts.each(|count| count as u32);
+    let sides = counts.each(|count| count.min(BLOCK as u32));
+    [sides, array::from_fn(|k| counts[k].div_ceil(sides[k]))]
 }
 
 /// How many numbers the cells have.
@@ -86,7 +87,7 @@ pub(super) fn numbers(counts: [i32; 3]) -> u64 {
 
 /// Numbers the cells in memory, and returns how many numbers there are.
 pub(super) fn number<T: Real>(axes: &mut [Axis<T>; 3]) -> usize {
-    let [sides, blocks] = blocks(axes.each_ref().map(|axis| axis.kept));
+    let [sides, blocks] = blocks(axes.refs().each(|axis| axis.kept));
     let within = [1, sides[0], sides[0] * sides[1]];
     let whole = sides[0] * sides[1] * sides[2];
     let between = [whole, whole * blocks[0], whole * blocks[0] * blocks[1]];

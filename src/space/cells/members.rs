@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::axis::NOWHERE;
 use super::{Grid, STRIDE};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::pieces::Pieces;
 
@@ -43,7 +44,7 @@ impl<'a, T: Real> Members<'a, T> {
         starts: [usize; 2],
         spilled: &'a mut Spilled,
     ) -> Self {
-        let slots = Pieces::of(runs, starts.map(|start| start * blocks));
+        let slots = Pieces::of(runs, starts.each(|start| start * blocks));
         Self { grid, blocks, slots, spilled, is_whole: false }
     }
 
@@ -64,7 +65,7 @@ impl<'a, T: Real> Members<'a, T> {
     #[inline(always)]
     pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> Option<usize> {
         let lines = self.grid.lines(cell);
-        self.read_lines(lines.each_ref().map(|line| &line[..]), found)
+        self.read_lines(lines.refs().each(|line| &line[..]), found)
     }
 
     /// The bodies in the layer of cells around `cell` that has come near when
@@ -72,7 +73,7 @@ impl<'a, T: Real> Members<'a, T> {
     #[inline(always)]
     pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> Option<usize> {
         let lines = self.grid.lines(cell);
-        let mut lines = lines.each_ref().map(|line| &line[..]);
+        let mut lines = lines.refs().each(|line| &line[..]);
         if !self.grid.are_all_neighbours(axis) {
             lines[axis] = if up { &lines[axis][2..] } else { &lines[axis][..1] };
         }
@@ -82,9 +83,11 @@ impl<'a, T: Real> Members<'a, T> {
     #[inline(always)]
     fn read_lines(&self, lines: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
         let [xs, ys, zs] = lines;
-        let least: usize = lines.iter().map(|line| *line.iter().min().unwrap_or(&0) as usize).sum();
+        let least = |line: &[u32]| line.iter().copied().fold(NOWHERE, u32::min) as usize;
+        let least: usize = lines.iter().map(|line| least(line)).sum();
         // Beyond all numbers if one of them is nowhere.
-        let last: usize = lines.iter().map(|line| *line.iter().max().unwrap_or(&0) as usize).sum();
+        let last = |line: &[u32]| line.iter().copied().fold(0, u32::max) as usize;
+        let last: usize = lines.iter().map(|line| last(line)).sum();
         let run = self.slots.run(least..=last).filter(|_| self.blocks == 1);
         let Some(run) = run else { return self.read_lines_with_care(lines, found) };
         let mut len = 0;
@@ -93,7 +96,7 @@ impl<'a, T: Real> Members<'a, T> {
                 for &x in xs {
                     // A whole block is copied faster than a few numbers are counted.
                     let block = &run[((x + y + z) as usize).wrapping_sub(least)];
-                    found[len..len + STRIDE].copy_from_slice(block);
+                    put(block, &mut found[len..]);
                     let count = block[STRIDE - 1] as usize;
                     if count >= STRIDE {
                         return self.read_lines_with_care(lines, found);
@@ -140,7 +143,7 @@ impl<'a, T: Real> Members<'a, T> {
             return self.read_blocks(number, found, len);
         }
         let block = &self.slots[number as usize];
-        found[len..len + STRIDE].copy_from_slice(block);
+        put(block, &mut found[len..]);
         let count = block[STRIDE - 1] as usize;
         if count < STRIDE { len + count } else { self.read_blocks(number, found, len) }
     }
@@ -254,4 +257,11 @@ impl<'a, T: Real> Members<'a, T> {
 /// Where the body of a number is among a cell's slots.
 fn nth(number: usize) -> usize {
     number + usize::from(number >= STRIDE - 1)
+}
+
+/// A block to the start of `found`: its length is known, so this is a few moves of vectors.
+#[inline(always)]
+fn put(block: &[u32; STRIDE], found: &mut [u32]) {
+    let Some(room) = found.first_chunk_mut() else { unreachable!("no room for a block") };
+    *room = *block;
 }

@@ -3,6 +3,7 @@
 use super::{Ends, MOST_COORDINATES};
 use crate::bodies::Columns3;
 use crate::column::Column;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -39,7 +40,7 @@ pub(crate) struct Span<T> {
 impl<T: Real> Span<T> {
     /// The span between two corners.
     pub fn new(lower: Vec3<T>, upper: Vec3<T>, ends: Ends) -> Self {
-        let corners = [lower, upper].map(Vec3::to_array);
+        let corners = [lower, upper].each(Vec3::to_array);
         let farthest = corners.iter().flatten().fold(T::ZERO, |most, c| most.greater(c.abs()));
         Self { lower, upper, ends, folds: [1; 3], farthest }
     }
@@ -86,7 +87,7 @@ impl<T: Real> Span<T> {
             }
             side = side * T::ratio(1, 2);
         }
-        let mut cells: [usize; 3] = core::array::from_fn(|k| {
+        let mut cells: [usize; 3] = array::from_fn(|k| {
             let mut cells: Vec<i64> = self.cells_along(k, side, &position[k]).collect();
             cells.sort_unstable();
             cells.dedup();
@@ -100,7 +101,7 @@ impl<T: Real> Span<T> {
             }
             cells[most] = cells[most] * 3 / 4;
         }
-        Some(cells.map(|count| (side * T::from_f64(count as f64)).greater(least)))
+        Some(cells.each(|count| (side * T::from_f64(count as f64)).greater(least)))
     }
 
     /// The coordinate along an axis of the cell of each body, for cells of a side.
@@ -133,7 +134,7 @@ impl<T: Real> Span<T> {
     /// The sides of the part that has cells of its own in memory, length.
     pub fn part(&self) -> [T; 3] {
         let extent = (self.upper - self.lower).to_array();
-        core::array::from_fn(|k| extent[k] / T::whole(self.folds[k]))
+        array::from_fn(|k| extent[k] / T::whole(self.folds[k]))
     }
 
     /// The mean distance of `len` bodies, or the greatest at which two touch if

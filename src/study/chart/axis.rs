@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use crate::numbers::array::Each;
 use crate::study::table::power_of_ten;
 
 /// How far a scale goes, and how it is divided.
@@ -156,7 +157,7 @@ impl Divided {
     fn round_differences(&self, most: usize) -> Vec<f64> {
         let least = (self.span.end - self.span.start) / most as f64;
         let power = 10.0_f64.powf(least.log10().floor());
-        let steps = [1.0, 2.0, 5.0, 10.0].map(|part| part * power);
+        let steps = [1.0, 2.0, 5.0, 10.0].each(|part| part * power);
         // A rounding does not decide.
         let step = steps.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
         let step = step.unwrap_or(10.0 * power);

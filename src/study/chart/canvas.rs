@@ -8,6 +8,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::look::Color;
 use super::text::{CAPITAL, font};
+use crate::numbers::array::Each;
 
 /// A place, pixels from the left and from the top.
 pub(super) type Place = (f64, f64);
@@ -57,7 +58,7 @@ impl<B: DrawingBackend> Canvas<B> {
     /// Dashes and gaps of these lengths along lines from place to place.
     pub fn dashes(&mut self, places: &[Place], [on, off]: [f64; 2], width: f64, color: Color) {
         let places: Vec<_> = places.iter().map(|&place| self.pixel(place)).collect();
-        let [on, off] = [on, off].map(|length| self.whole(length));
+        let [on, off] = [on, off].each(|length| self.whole(length));
         let stroke = self.stroke(width, color);
         self.draw(&DashedPathElement::new(places, on, off, stroke));
     }

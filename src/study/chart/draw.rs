@@ -1,12 +1,13 @@
 //! Draw: charts on a canvas.
 
-use super::axis::{Divided, Tick};
 use plotters::prelude::DrawingBackend;
 
+use super::axis::{Divided, Tick};
 use super::canvas::{Anchor, Canvas, Place};
 use super::look::{Color, Look};
 use super::text::{CAPITAL, fitting, width};
 use super::{Chart, Mark, Picture, Series, Shape};
+use crate::numbers::array::Each;
 
 /// Sizes of the font, pixels: of titles, what an axis shows, its numbers, the legend, and
 /// the names of guides.
@@ -247,12 +248,12 @@ impl Shape {
             Self::Square => {
                 let half = 0.9 * MARKER;
                 let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
-                canvas.polygon(&corners.map(|(u, v)| (x + u, y + v)), color);
+                canvas.polygon(&corners.each(|(u, v)| (x + u, y + v)), color);
             }
             Self::Triangle => {
                 let (side, up) = (1.2 * MARKER, 1.3 * MARKER);
                 let corners = [(0.0, -up), (side, 0.7 * up), (-side, 0.7 * up)];
-                canvas.polygon(&corners.map(|(u, v)| (x + u, y + v)), color);
+                canvas.polygon(&corners.each(|(u, v)| (x + u, y + v)), color);
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Look: the colours of a picture, and how wide it is.
 
+use crate::numbers::array::{self, Each};
+
 /// What pictures look like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
@@ -60,8 +62,8 @@ impl Look {
             Theme::Dark => [235; 3],
         };
         let ground = self.ground();
-        core::array::from_fn(|k| {
-            let [from, to] = [ground[k], text[k]].map(f64::from);
+        array::from_fn(|k| {
+            let [from, to] = [ground[k], text[k]].each(f64::from);
             (from + share * (to - from)).round() as u8
         })
     }

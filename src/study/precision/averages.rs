@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::run::{Sample, Track, finite};
 use super::side_by_side::SideBySide;
+use crate::numbers::array::Each;
 use crate::observe::compressibility;
 use crate::study::fit::{mean, mean_square};
 
@@ -64,7 +65,7 @@ fn average(
         let in_errors = error.map(|error| difference / error);
         Some(OfPrecision { value, difference, in_errors })
     };
-    let others = side_by_side.others.each_ref().map(|other| of(&other.track));
+    let others = side_by_side.others.refs().each(|other| of(&other.track));
     Some(Average { name, truth, error, others })
 }
 
@@ -132,7 +133,7 @@ fn standard_error(figure: &dyn Fn(&[Sample]) -> Option<f64>, samples: &[Sample])
     let parts = samples.len().checked_sub(1)?;
     let blocks: Vec<f64> = (0..BLOCKS)
         .filter_map(|block| {
-            let [start, end] = [block, block + 1].map(|k| k * parts / BLOCKS);
+            let [start, end] = [block, block + 1].each(|k| k * parts / BLOCKS);
             figure(samples.get(start..=end)?)
         })
         .collect();

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::order::Departures;
 use super::side_by_side::{Comparison, SideBySide};
+use crate::numbers::array::Each;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::Precision;
 use crate::study::deviation::LOST;
@@ -204,7 +205,7 @@ pub fn reference_lost(
     threshold: f64,
     end: RunPoint,
 ) -> Option<RunPoint> {
-    let epsilons = [Precision::F32, Precision::F64].map(Precision::epsilon);
+    let epsilons = [Precision::F32, Precision::F64].each(Precision::epsilon);
     let mut found = divergences.iter().zip(epsilons).rev().filter_map(|(divergence, epsilon)| {
         let growth = divergence.growth.filter(|growth| growth.power.is_none())?;
         let smaller = (DoubleDouble::EPSILON.to_f64() / epsilon).ln();

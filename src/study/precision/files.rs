@@ -2,6 +2,7 @@
 
 use super::report::{PrecisionReport, SeriesRow};
 use super::{PRECISIONS, RunPoint};
+use crate::numbers::array::Each;
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series};
 use crate::study::{Report, Subject};
 
@@ -42,11 +43,11 @@ impl PrecisionReport {
             if let Some(growth) = divergence.growth.filter(|growth| growth.power.is_none()) {
                 let law = |c: f64| (c, (growth.intercept + growth.rate.value * c).exp());
                 let name = format!("{}: e^({:.2} c)", PRECISIONS[k], growth.rate.value);
-                let line = Series::new(name, growth.range.map(law));
+                let line = Series::new(name, growth.range.each(law));
                 series.push(line.color(k).mark(Mark::Dashes));
             }
         }
-        let ends = [0.0, at(self.end)].map(|x| (x, self.threshold.distance));
+        let ends = [0.0, at(self.end)].each(|x| (x, self.threshold.distance));
         series.push(Series::new("lost", ends).mark(Mark::Dashes));
         let x = if has_collisions { "collisions per body" } else { "time" };
         Chart {

@@ -10,6 +10,7 @@ use super::drift::{Drift, invariants};
 use super::run::Track;
 use super::side_by_side::SideBySide;
 use super::{PRECISIONS, verdict};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::EngineKind;
 use crate::study::fit::Estimate;
@@ -88,7 +89,7 @@ impl PrecisionReport {
         further: [Vec<Track>; 2],
     ) -> Self {
         let threshold = Threshold::of(&side_by_side);
-        let divergences = [0, 1].map(|k| {
+        let divergences = [0, 1].each(|k| {
             Divergence::of(
                 PRECISIONS[k],
                 &side_by_side.others[k],
@@ -102,7 +103,7 @@ impl PrecisionReport {
             collisions_per_body: collisions.last().copied().unwrap_or(0.0),
         };
         let epsilons = [f32::EPSILON.to_f64(), f64::EPSILON];
-        let tracks = [0, 1].map(|k| {
+        let tracks = [0, 1].each(|k| {
             let first = core::iter::once(&side_by_side.others[k].track);
             first.chain(&further[k]).collect::<Vec<&Track>>()
         });
@@ -140,7 +141,7 @@ impl PrecisionReport {
 fn series(side_by_side: &SideBySide, collisions: &[f64]) -> Vec<SeriesRow> {
     let row = |(k, &collisions_per_body): (usize, &f64)| {
         let time = side_by_side.truth.samples[k].time;
-        let [single, double] = side_by_side.others.each_ref();
+        let [single, double] = side_by_side.others.refs();
         let of = |values: &[Option<f64>]| values.get(k).copied().flatten();
         let drift = |track: &Track, which: usize| {
             track.samples.get(k).and_then(|sample| sample.drift[which])
@@ -191,7 +192,7 @@ impl PrecisionReport {
         let Threshold { distance, what } = self.threshold;
         writeln!(f, "\nDistance δ from the double-double, root mean square of all bodies")?;
         let mut table = Table::default();
-        table.row("time", ["collisions/body", "f32", "f64"].map(str::to_owned));
+        table.row("time", ["collisions/body", "f32", "f64"].each(str::to_owned));
         let last = self.series.len().saturating_sub(1);
         let parts = SHOWN.min(last.max(1));
         for k in 0..=parts {
@@ -209,8 +210,8 @@ impl PrecisionReport {
         write!(f, "{table}")?;
         writeln!(f, "lost: δ > {distance:.2e}, {what}\n")?;
         let mut table = Table::of_texts();
-        table.row("", PRECISIONS.map(str::to_owned));
-        let each = |text: &dyn Fn(&Divergence) -> String| self.divergences.each_ref().map(text);
+        table.row("", PRECISIONS.each(str::to_owned));
+        let each = |text: &dyn Fn(&Divergence) -> String| self.divergences.refs().each(text);
         table.row("growth λ of δ ∝ e^(λc), c in collisions per body", each(&growth));
         if self.divergences.iter().any(|d| d.growth.is_some_and(|growth| growth.power.is_some())) {
             table.row("nearer to the points: p of δ ∝ c^p", each(&power));
@@ -252,7 +253,7 @@ impl PrecisionReport {
         let runs = counted(self.runs as u64, "run");
         writeln!(f, "\nDrift of what is conserved, root mean square of {runs}, n collisions")?;
         let mut table = Table::of_texts();
-        table.row("", ["", "at the end", "in ε", "exponent of n", "law"].map(str::to_owned));
+        table.row("", ["", "at the end", "in ε", "exponent of n", "law"].each(str::to_owned));
         for drift in &self.drifts {
             let exponent = drift.exponent.map_or("-".to_owned(), with_error);
             let cells = [
@@ -273,7 +274,7 @@ impl PrecisionReport {
         }
         writeln!(f, "\nAverages, and what they lose, in statistical errors of the run")?;
         let mut table = Table::of_texts();
-        table.row("", ["double-double", "f32", "", "f64", ""].map(str::to_owned));
+        table.row("", ["double-double", "f32", "", "f64", ""].each(str::to_owned));
         for average in &self.averages {
             let truth = match average.error {
                 Some(error) => with_error(Estimate { value: average.truth, error }),

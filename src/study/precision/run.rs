@@ -6,6 +6,7 @@ use super::order::Seen;
 use crate::bodies::Bodies;
 use crate::engine::{Compiled, Event, Execution, Listener, World};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::observe::{Temperature, fall_energy};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::EngineKind;
@@ -150,7 +151,7 @@ impl<T: Compiled> Run<T> {
         let mut now = Invariants::of(bodies, self.gravity);
         let given = self.world.impulse_from_surroundings();
         let fallen = self.gravity * (self.mass * DoubleDouble::from_f64(time));
-        let given = Vec3::from(given.map(DoubleDouble::from_f64));
+        let given = Vec3::from(given.each(DoubleDouble::from_f64));
         now.momentum = now.momentum - given - fallen;
         // Bodies at the top of their paths have hardly any momentum themselves.
         let exchanged = given.length().high().max(fallen.length().high());
@@ -160,7 +161,7 @@ impl<T: Compiled> Run<T> {
             time,
             collisions: collisions.total(),
             ends,
-            drift: now.change_since(&self.start, self.fall).map(finite),
+            drift: now.change_since(&self.start, self.fall).each(finite),
             translational: temperature.and_then(|gas| finite(gas.translational)),
             rotational: temperature.and_then(|gas| finite(gas.rotational)),
             virial: finite(self.world.virial()).unwrap_or(0.0),

@@ -4,6 +4,7 @@ use super::PRECISIONS;
 use super::divergence::Divergence;
 use super::drift::Law;
 use super::report::{PrecisionReport, far, short};
+use crate::numbers::array::Each;
 use crate::scene::EngineKind;
 
 /// From this number of standard errors on an average is another one: the errors of two
@@ -45,7 +46,7 @@ pub(super) fn verdict(report: &PrecisionReport) -> Vec<String> {
 }
 
 fn trajectories(report: &PrecisionReport) -> String {
-    let each = report.divergences.each_ref().map(|divergence| {
+    let each = report.divergences.refs().each(|divergence| {
         let precision = divergence.precision;
         match divergence {
             Divergence { stopped: Some(_), .. } => format!("{precision} does not come to the end"),
@@ -68,7 +69,7 @@ fn averages(report: &PrecisionReport) -> Option<String> {
     if report.averages.is_empty() {
         return None;
     }
-    let lost = [0, 1].map(|k| {
+    let lost = [0, 1].each(|k| {
         let is_lost = report.averages.iter().filter(|average| {
             average.others[k].is_none_or(|other| match other.in_errors {
                 Some(errors) => errors.abs() > DIFFERENT,
@@ -89,7 +90,7 @@ fn averages(report: &PrecisionReport) -> Option<String> {
 }
 
 fn invariants(report: &PrecisionReport) -> Option<String> {
-    let worst = PRECISIONS.map(|precision| {
+    let worst = PRECISIONS.each(|precision| {
         let drifts = report.drifts.iter().filter(|drift| drift.precision == precision);
         drifts.max_by(|a, b| a.at_end.total_cmp(&b.at_end))
     });

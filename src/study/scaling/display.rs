@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::{Measurement, ScalingReport, Settings, SpeedUp};
 use crate::engine::Lanes;
+use crate::numbers::array::Each;
 use crate::scene::EngineKind;
 use crate::study::table::{Table, counted, grouped, rounded};
 
@@ -63,7 +64,7 @@ impl ScalingReport {
     fn times(&self) -> Table {
         let mut table = Table::default();
         let heading = [self.unit(), "", "speed-up", "", "set-up", "B/body", "peak MB"];
-        table.row("", heading.map(str::to_owned));
+        table.row("", heading.each(str::to_owned));
         for rows in &self.points {
             if let Some(first) = rows.first() {
                 table.row(&format!("{}, {} bodies", first.precision, grouped(first.bodies)), []);

@@ -6,6 +6,7 @@ use super::Figure;
 use super::chart::Picture;
 use crate::engine::Compiled;
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::Precision;
 use crate::study::{Point, StudyError};
@@ -137,7 +138,7 @@ impl Studied for f64 {
 
 /// A vector in the studied precision.
 pub(super) fn t3<T: Real>(vector: [f64; 3]) -> [T; 3] {
-    vector.map(T::from_f64)
+    vector.each(T::from_f64)
 }
 
 /// In ε of the precision.

@@ -3,6 +3,7 @@
 use faer::Mat;
 
 use crate::mat3::Mat3;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::trigonometry::sin_cos;
 use crate::vec3::Vec3;
@@ -11,11 +12,11 @@ use crate::vec3::Vec3;
 /// nearest to this one (Fan and Hoffman 1955).
 /// No numbers if there is none.
 pub(super) fn nearest_orthonormal<T: Real>(m: Mat3<T>) -> Mat3<T> {
-    let rows = m.rows().map(T::to_f64);
+    let rows = m.rows().each(T::to_f64);
     let full = Mat::from_fn(3, 3, |row, column| rows[3 * row + column]);
     let polar = full.svd().map(|parts| parts.U() * parts.V().transpose());
     let element = |k: usize| polar.as_ref().map_or(f64::NAN, |polar| polar[(k / 3, k % 3)]);
-    Mat3::from_rows(core::array::from_fn(|k| T::from_f64(element(k))))
+    Mat3::from_rows(array::from_fn(|k| T::from_f64(element(k))))
 }
 
 /// The quaternion of a rotation, `[cos h, sin h n]`, `h = |w|t/2`.
@@ -41,7 +42,7 @@ pub(super) fn product<T: Real>([a, b, c, d]: [T; 4], [e, f, g, h]: [T; 4]) -> [T
 pub(super) fn normalised<T: Real>(q: [T; 4]) -> [T; 4] {
     let [a, b, c, d] = q;
     let length = (a * a + b * b + c * c + d * d).sqrt();
-    q.map(|part| part / length)
+    q.each(|part| part / length)
 }
 
 /// The matrix of a unit quaternion.

@@ -5,6 +5,7 @@ use super::case::{Random, Studied, greatest};
 use crate::contact::{Party, Rough, Smooth, Surface, collide, contact_time};
 use crate::engine::{Event, EventDriven, Partner};
 use crate::lane::Lane;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::scene::{Scene, Sphere};
 use crate::vec3::Vec3;
@@ -83,9 +84,9 @@ struct Encounter<J> {
 /// The two bodies of a scene, whose numbers are taken as exact.
 fn encounter<T: Studied>(scene: &Scene<T>) -> Encounter<T::Judge> {
     let bodies = &scene.bodies;
-    let radii = [0, 1].map(|k| bodies.radius.of(k).cast::<T::Judge>());
+    let radii = [0, 1].each(|k| bodies.radius.of(k).cast::<T::Judge>());
     let one = T::Judge::ONE;
-    let parties = [0, 1].map(|k| Party {
+    let parties = [0, 1].each(|k| Party {
         velocity: bodies.velocity_of(k).cast(),
         spin: bodies.spin_of(k).cast(),
         inverse_mass: one / bodies.mass.of(k).cast(),
@@ -149,8 +150,8 @@ pub(super) fn touching<T: Studied>(scene: &Scene<T>) -> Parting<T::Judge> {
 pub(super) fn untouched<T: Studied>(scene: &Scene<T>) -> Parting<T::Judge> {
     let bodies = &scene.bodies;
     Parting {
-        velocity: [0, 1].map(|k| bodies.velocity_of(k).cast()),
-        surface: [0, 1].map(|k| bodies.spin_of(k).cast() * bodies.radius.of(k).cast()),
+        velocity: [0, 1].each(|k| bodies.velocity_of(k).cast()),
+        surface: [0, 1].each(|k| bodies.spin_of(k).cast() * bodies.radius.of(k).cast()),
     }
 }
 
@@ -159,13 +160,13 @@ pub(super) fn found<T: Studied>(
     scene: Scene<T>,
     duration: f64,
 ) -> Result<Option<Parting<T::Judge>>, StudyError> {
-    let radii = [0, 1].map(|k| scene.bodies.radius.of(k).cast::<T::Judge>());
+    let radii = [0, 1].each(|k| scene.bodies.radius.of(k).cast::<T::Judge>());
     let mut world = EventDriven::new(scene)?;
     let mut parting = None;
     world.for_each_event(duration, |event: &Event<T>| {
         if let Partner::Body { velocity, spin, .. } = event.partner {
             parting = Some(Parting {
-                velocity: [event.velocity, velocity].map(Vec3::cast),
+                velocity: [event.velocity, velocity].each(Vec3::cast),
                 surface: [event.spin.cast() * radii[0], spin.cast() * radii[1]],
             });
         }
@@ -196,7 +197,7 @@ pub(super) fn measured<T: Studied>(
 impl<J: Real> Parting<J> {
     /// How far off each body is, the faster of its centre and its surface.
     pub fn off(&self, other: &Self) -> [f64; 2] {
-        [0, 1].map(|k| {
+        [0, 1].each(|k| {
             let velocity = (self.velocity[k] - other.velocity[k]).length().to_f64();
             let surface = (self.surface[k] - other.surface[k]).length().to_f64();
             greatest([velocity, surface])
@@ -205,6 +206,6 @@ impl<J: Real> Parting<J> {
 
     /// How fast each body is.
     pub fn speeds(&self) -> [f64; 2] {
-        [0, 1].map(|k| greatest([self.velocity[k], self.surface[k]].map(|v| v.length().to_f64())))
+        [0, 1].each(|k| greatest([self.velocity[k], self.surface[k]].each(|v| v.length().to_f64())))
     }
 }

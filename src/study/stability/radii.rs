@@ -5,6 +5,7 @@ use super::case::{
 };
 use super::{Figure, StudyError, gas, pair};
 use crate::contact::Surface;
+use crate::numbers::array::Each;
 use crate::scene::{Scene, Sphere, Spheres};
 use crate::study::table::power_of_ten;
 use crate::surroundings::Cuboid;
@@ -44,7 +45,7 @@ fn two<T: Studied>(power: i32, pairs: u64) -> Trial {
             let mut radii = [1.0; 2];
             radii[small] = 10.0_f64.powi(-power);
             let aim = 0.7 * random.unit();
-            let balls = pair::meeting(&mut random, radii, radii.map(|r| r * r * r), aim);
+            let balls = pair::meeting(&mut random, radii, radii.each(|r| r * r * r), aim);
             if let Some((off, _)) = pair::measured::<T>(&balls, surface, 10.0)? {
                 worst = greatest([worst, greatest(off)]);
             }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::case::{Curve, Findings};
 use super::{Case, Extent, Figure, Verdict};
+use crate::numbers::array::Each;
 use crate::scene::Precision;
 use crate::study::chart::Picture;
 use crate::study::table::wrapped;
@@ -135,7 +136,7 @@ impl fmt::Display for StabilityReport {
                 let mut lines = wrapped(quantity, QUANTITY - 2).into_iter();
                 let first = lines.next().unwrap_or_default();
                 let [single, double] =
-                    cells.map(|cell| cell.map_or(String::new(), Figure::to_string));
+                    cells.each(|cell| cell.map_or(String::new(), Figure::to_string));
                 let line = format!(
                     "  {first:width$} {law:LAW$} {single:>CELL$} {double:>CELL$}",
                     width = QUANTITY - 2
@@ -148,7 +149,7 @@ impl fmt::Display for StabilityReport {
             writeln!(f)?;
         }
         let [holds, fails, limits] =
-            [Verdict::Holds, Verdict::Deviates, Verdict::Limit].map(|verdict| self.count(verdict));
+            [Verdict::Holds, Verdict::Deviates, Verdict::Limit].each(|verdict| self.count(verdict));
         writeln!(
             f,
             "{holds} figures hold, {fails} fail, {limits} are beyond the precision (limit: reported, not judged)."

@@ -7,6 +7,7 @@ use super::chart::{Axis, Chart, Picture, Scale, Series};
 use super::{Figure, StudyError, gas};
 use crate::contact::Surface;
 use crate::engine::EventDriven;
+use crate::numbers::array::Each;
 use crate::scene::{Precision, Scene, Sphere, Spheres};
 use crate::study::fit::{Line, mean, mean_square, power};
 use crate::surroundings::{Cuboid, Plane};
@@ -134,7 +135,7 @@ fn combine(trials: Vec<Findings>) -> Findings {
     let mut all = Findings { figures: Vec::new(), curves: Vec::new() };
     for surface in [Surface::Smooth, Surface::Rough] {
         let name = format!("{surface} gas");
-        let curves = [Precision::F32, Precision::F64].map(|precision| {
+        let curves = [Precision::F32, Precision::F64].each(|precision| {
             let is_one = |curve: &&Curve| curve.precision == precision && curve.name == name;
             let runs: Vec<&Curve> = found.curves.iter().filter(is_one).collect();
             let points = at_points(&runs, |errors| {
@@ -153,7 +154,7 @@ fn combine(trials: Vec<Findings>) -> Findings {
 fn judged(name: &str, [single, double]: &[Curve; 2]) -> Vec<Figure> {
     // Where the error has found its direction, up to where it is no longer small.
     let long = rate(double, 6.0, |error| error < 1e-2);
-    let rates = [single, double].map(|curve| {
+    let rates = [single, double].each(|curve| {
         let early: Vec<_> = curve.points.iter().filter(|point| point.0 <= 10.0).copied().collect();
         rate(&Curve::new(curve.precision, String::new(), early), 3.0, |_| true)
     });

@@ -8,6 +8,7 @@ use super::orientation::{
 };
 use crate::mat3::Mat3;
 use crate::motion::rotation::{orthonormalised, reference_rotation, turned};
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::scene::Precision;
 use crate::study::fit::power;
@@ -142,7 +143,7 @@ fn errors<T: Studied>(
             let found = step(k);
             if is_looked_at {
                 let errors = errors_after(found, n, (m, spin));
-                worst = core::array::from_fn(|k| greatest([worst[k], errors[k]]));
+                worst = array::from_fn(|k| greatest([worst[k], errors[k]]));
             }
         }
         if is_looked_at {
@@ -159,7 +160,7 @@ fn errors<T: Studied>(
         }
     }
     [("skewness", skewness), ("angle", angle)]
-        .map(|(what, points)| {
+        .each(|(what, points)| {
             let name = format!("{what}, {}", method.name());
             Curve::new(T::PRECISION, name, points)
         })
@@ -176,12 +177,12 @@ fn errors_after<T: Studied>(found: Mat3<T>, steps: i32, (m, spin): (Mat3<T>, Vec
 }
 
 fn exact_matrix<T: Studied>(m: Mat3<T>) -> Mat3<T::Judge> {
-    Mat3 { columns: m.columns.map(Vec3::cast) }
+    Mat3 { columns: m.columns.each(Vec3::cast) }
 }
 
 /// Greatest element of the difference from the identity.
 fn distance<T: Real>(m: Mat3<T>) -> f64 {
-    greatest((m - Mat3::IDENTITY).rows().map(|element| element.abs().to_f64()))
+    greatest((m - Mat3::IDENTITY).rows().each(|element| element.abs().to_f64()))
 }
 
 /// Angle of the rotation between two orientations, where it is small: the
@@ -198,7 +199,7 @@ fn combine(trials: Vec<Findings>) -> Findings {
     let mut all = Findings { figures: found.figures, curves: Vec::new() };
     for precision in [Precision::F32, Precision::F64] {
         for method in Method::ALL {
-            let [skewness, angle] = ["skewness", "angle"].map(|what| {
+            let [skewness, angle] = ["skewness", "angle"].each(|what| {
                 let name = format!("{what}, {}", method.name());
                 let is_one = |curve: &&Curve| curve.precision == precision && curve.name == name;
                 worst(precision, &name, found.curves.iter().filter(is_one))

@@ -5,6 +5,7 @@ use core::f64::consts::PI;
 use super::Figure;
 use super::case::{Case, Extent, Findings, Studied, Trial, in_epsilon, t3, trial};
 use crate::engine::EventDriven;
+use crate::numbers::array::Each;
 use crate::scene::{Scene, Sphere};
 use crate::surroundings::Plane;
 
@@ -51,7 +52,7 @@ fn wedge<T: Studied>(n: u64) -> Trial {
         let normals = [[0.0, 1.0, 0.0], [angle.sin(), -angle.cos(), 0.0]];
         let mut builder = Scene::<T>::builder();
         for normal in normals {
-            let point = normal.map(|component| -radius * component);
+            let point = normal.each(|component| -radius * component);
             builder = builder.surroundings(Plane::new(t3(point), t3(normal)));
         }
         let ball = Sphere::new([1.0, 0.5 * angle, 0.0]).radius(radius).velocity([-1.0, 0.0, 0.0]);

@@ -6,6 +6,7 @@ use super::conclusions::{Found, Order, Theory};
 use super::quantity::Quantity;
 use super::report::WorkPrecisionReport;
 use crate::engine::Execution;
+use crate::numbers::array::Each;
 use crate::scene::Precision;
 use crate::study::fit::quantile;
 use crate::study::table::{Table, counted, plain, seconds};
@@ -27,7 +28,7 @@ impl WorkPrecisionReport {
             Quantity::AngularMomentum => "ang. mom.".to_owned(),
             quantity => quantity.to_string(),
         });
-        table.row("", ["time", "±"].map(str::to_owned).into_iter().chain(heads));
+        table.row("", ["time", "±"].each(str::to_owned).into_iter().chain(heads));
         for family in self.families() {
             if family.stepping.is_some() {
                 table.row(&family.to_string(), []);
@@ -95,7 +96,7 @@ impl WorkPrecisionReport {
         let mut table = Table::default();
         let columns: Vec<(bool, Precision)> = [(false, Precision::F32), (false, Precision::F64)]
             .into_iter()
-            .chain([Precision::F32, Precision::F64, Precision::DoubleDouble].map(|p| (true, p)))
+            .chain([Precision::F32, Precision::F64, Precision::DoubleDouble].each(|p| (true, p)))
             .filter(|(stepped, precision)| {
                 self.sweep.methods.iter().any(|method| {
                     method.stepping.is_some() == *stepped && method.precision == *precision

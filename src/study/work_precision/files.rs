@@ -7,6 +7,7 @@ use super::method::Family;
 use super::quantity::Quantity;
 use super::report::WorkPrecisionReport;
 use crate::motion::Integrator;
+use crate::numbers::array::Each;
 use crate::scene::Precision;
 use crate::scene::{EngineKind, Impact};
 use crate::study::chart::{Axis, Chart, Mark, Picture, Scale, Series, Shape};
@@ -150,7 +151,7 @@ impl WorkPrecisionReport {
         series.extend(families.iter().filter(|family| is_shown(family)).map(|family| {
             let own = || all.iter().filter(|result| result.method.family() == *family);
             let error = |result: &Judged| self.point(result).1;
-            let bar = |result: &Judged| result.interval.map(|seconds| (seconds, error(result)));
+            let bar = |result: &Judged| result.interval.each(|seconds| (seconds, error(result)));
             Series {
                 color: ways.iter().position(|way| way.stepping == family.stepping),
                 shape: shape(family.precision),

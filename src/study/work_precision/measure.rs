@@ -6,6 +6,7 @@ use super::method::Method;
 use super::reference::{Reference, collisions_of_a_body};
 use super::sweep::Sweep;
 use crate::engine::{Compiled, EngineError, Execution, World};
+use crate::numbers::array::Each;
 use crate::observe::{StateHash, state_hash};
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
@@ -43,7 +44,7 @@ impl Outcome {
         for (moment, errors) in self.moments.iter_mut().zip(&bodies) {
             let Some(deviation) = &mut moment.deviation else { continue };
             let [position, velocity, orientation] =
-                errors.each_ref().map(|errors| norm.of(&errors.errors()));
+                errors.refs().each(|errors| norm.of(&errors.errors()));
             *deviation = Deviation { position, velocity, orientation, ..*deviation };
         }
         Some(self)
@@ -98,7 +99,7 @@ fn measure_in<T: Compiled>(
         let deviation = state.truth.deviation_of(&now, &errors);
         if sweep.keeps_bodies(now.len()) {
             let Errors { position, velocity, orientation } = &errors;
-            bodies.push([position, velocity, orientation].map(|errors| Packed::new(errors)));
+            bodies.push([position, velocity, orientation].each(|errors| Packed::new(errors)));
         }
         moments.push(Moment {
             time,

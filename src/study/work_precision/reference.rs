@@ -2,6 +2,7 @@
 //! known.
 
 use crate::engine::{Compiled, Execution, World};
+use crate::numbers::array;
 use crate::observe::fall_energy;
 use crate::real::{DoubleDouble, Real};
 use crate::scene::{Precision, Scene, SceneFile};
@@ -135,7 +136,7 @@ pub(super) fn length_scale<T: Real>(scene: &Scene<T>) -> f64 {
     }
     let positions = || (0..bodies.len()).map(|k| bodies.position_of(k).cast().to_array());
     let middle = positions().fold([0.0; 3], |sum, position| {
-        core::array::from_fn(|k| sum[k] + position[k] / bodies.len() as f64)
+        array::from_fn(|k| sum[k] + position[k] / bodies.len() as f64)
     });
     let distance = |position: [f64; 3]| {
         position.iter().zip(middle).map(|(x, m)| (x - m).powi(2)).sum::<f64>().sqrt()

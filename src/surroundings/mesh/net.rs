@@ -6,6 +6,7 @@
 use std::collections::HashMap;
 
 use super::MeshError;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::space::hierarchy::{MOST_PARTS, along_curve};
 use crate::vec3::Vec3;
@@ -58,10 +59,10 @@ impl Net {
             return Err(MeshError::NotFinite { vertex });
         }
         let places: Vec<[f64; 3]> =
-            points.iter().map(|vertex| vertex.to_array().map(|c| c.to_f64() + 0.0)).collect();
+            points.iter().map(|vertex| vertex.to_array().each(|c| c.to_f64() + 0.0)).collect();
         let middle = |triangle: &[u32; 3]| {
-            let [a, b, c] = triangle.map(|corner| places[corner as usize]);
-            core::array::from_fn(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0)
+            let [a, b, c] = triangle.each(|corner| places[corner as usize]);
+            array::from_fn(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0)
         };
         let middles: Vec<[f64; 3]> = triangles.iter().map(middle).collect();
         let order = along_curve(&middles);
@@ -69,14 +70,14 @@ impl Net {
         let mut vertices = Vec::new();
         let mut numbers: HashMap<[u64; 3], u32> = HashMap::with_capacity(points.len());
         let mut number = |corner: u32| {
-            let place = places[corner as usize].map(f64::to_bits);
+            let place = places[corner as usize].each(f64::to_bits);
             *numbers.entry(place).or_insert_with(|| {
                 vertices.push(points[corner as usize]);
                 vertices.len() as u32 - 1
             })
         };
         let corners: Vec<[u32; 3]> =
-            order.iter().map(|&k| triangles[k as usize].map(&mut number)).collect();
+            order.iter().map(|&k| triangles[k as usize].each(&mut number)).collect();
         let neighbours = neighbours(&corners);
         vertices.shrink_to_fit();
         Ok((Self { corners, neighbours, given: order }, vertices))

@@ -4,6 +4,7 @@
 //! it. A polygon without holes always has two, so that cutting them off one by one ends
 //! (G. H. Meisters, *Polygons have ears*, 1975).
 
+use crate::numbers::array::Each;
 use crate::vec3::Vec3;
 
 /// Adds the triangles of a polygon, by its corners among the vertices. One that is not flat
@@ -16,7 +17,7 @@ pub(super) fn triangulated(corners: &[u32], vertices: &[[f64; 3]], triangles: &m
         let count = left.len();
         let triangle = |k: usize| [left[(k + count - 1) % count], left[k], left[(k + 1) % count]];
         let is_ear = |&k: &usize| {
-            let [a, b, c] = triangle(k).map(place);
+            let [a, b, c] = triangle(k).each(place);
             let turns = |a: Vec3<f64>, b: Vec3<f64>, c: Vec3<f64>| (b - a).cross(c - a).dot(normal);
             let is_inside = |p: Vec3<f64>| {
                 turns(a, b, p) >= 0.0 && turns(b, c, p) >= 0.0 && turns(c, a, p) >= 0.0

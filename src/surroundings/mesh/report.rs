@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::Mesh;
 use super::net::{OPEN, SEVERAL};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -62,14 +63,14 @@ impl MeshReport {
             let is_degenerate = mesh.seams.is_degenerate(triangle);
             degenerate += usize::from(is_degenerate);
             faces += usize::from(!is_degenerate && mesh.plane_of(triangle) == triangle);
-            let [a, b, c] = mesh.corners(triangle).map(|corner| corner.cast::<f64>() - middle);
+            let [a, b, c] = mesh.corners(triangle).each(|corner| corner.cast::<f64>() - middle);
             volume += a.dot(b.cross(c)) / 6.0;
         }
         let corner = |corner: Vec3<T>| corner.cast::<f64>().to_array();
         Self {
             triangles: net.corners.len(),
             vertices: mesh.vertices.len(),
-            bounds: mesh.bounds.map(corner),
+            bounds: mesh.bounds.each(corner),
             open_edges,
             non_manifold_edges: several.len(),
             flipped_edges: flipped,
@@ -102,7 +103,7 @@ fn components(vertices: usize, triangles: &[[u32; 3]]) -> usize {
     let mut sets = vertices;
     for &[a, b, c] in triangles {
         for other in [b, c] {
-            let [one, other] = [a, other].map(|vertex| stands(&mut leads, vertex));
+            let [one, other] = [a, other].each(|vertex| stands(&mut leads, vertex));
             if one != other {
                 leads[one.max(other) as usize] = one.min(other);
                 sets -= 1;

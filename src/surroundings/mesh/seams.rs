@@ -5,6 +5,7 @@
 
 use super::net::Net;
 use crate::contact::greatest_component;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -27,7 +28,7 @@ impl Seams {
     /// Of a net in its place.
     pub(super) fn new<T: Real>(net: &Net, vertices: &[Vec3<T>]) -> Self {
         let count = net.corners.len();
-        let corners = |triangle: u32| net.corners[triangle as usize].map(|k| vertices[k as usize]);
+        let corners = |triangle: u32| net.corners[triangle as usize].each(|k| vertices[k as usize]);
         let mut planes = vec![u32::MAX; count];
         let mut marks = vec![0; count];
         for triangle in 0..net.len() {
@@ -100,13 +101,13 @@ impl Seams {
 /// with the longest side `l`. A test without a scale.
 fn is_degenerate<T: Real>([a, b, c]: [Vec3<T>; 3]) -> bool {
     // In a unit that no square leaves the range of numbers in.
-    let unit = [b - a, c - b, a - c].map(greatest_component).into_iter().fold(T::ZERO, T::greater);
+    let unit = [b - a, c - b, a - c].each(greatest_component).into_iter().fold(T::ZERO, T::greater);
     if unit == T::ZERO {
         return true;
     }
     let scale = T::ONE / unit;
-    let [u, v, w] = [b - a, c - b, a - c].map(|side| side * scale);
-    let longest = [u, v, w].map(Vec3::length_squared).into_iter().fold(T::ZERO, T::greater);
+    let [u, v, w] = [b - a, c - b, a - c].each(|side| side * scale);
+    let longest = [u, v, w].each(Vec3::length_squared).into_iter().fold(T::ZERO, T::greater);
     u.cross(v).length() <= T::whole(4) * T::EPSILON * longest
 }
 

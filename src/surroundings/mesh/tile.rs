@@ -13,6 +13,7 @@ use super::Mesh;
 use super::seams::unit_normal;
 use crate::contact::{FreeFlight, Start, fall_of_height, greatest_component};
 use crate::lane::Lane;
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::surroundings::facet::{Facet, LOOKED_FOR, Nearest, Side};
 use crate::surroundings::pieced::Pieced;
@@ -49,7 +50,7 @@ impl<T: Real> Tile<'_, T> {
     pub(super) fn alone(&self) -> Facet<T> {
         let corners = self.corners();
         let [a, b, c] = corners;
-        let sides = [[a, b], [b, c], [c, a]].map(|ends| Side::new(ends, true, false));
+        let sides = [[a, b], [b, c], [c, a]].each(|ends| Side::new(ends, true, false));
         let is_line = self.mesh.seams.is_degenerate(self.number);
         let face = (!is_line).then(|| Plane { point: a, normal: unit_normal(corners) });
         Facet::with(corners, sides, face)
@@ -62,7 +63,7 @@ impl<T: Real> Tile<'_, T> {
         let face = self.face();
         let own = (b - a).cross(c - a);
         let is_left = face.is_none_or(|face| own.dot(face.normal) > T::ZERO);
-        let sides = core::array::from_fn(|k| {
+        let sides = array::from_fn(|k| {
             let next = (k + 1) % 3;
             let is_seam = self.mesh.seams.is_seam(self.number, k);
             if numbers[k] < numbers[next] {
@@ -118,7 +119,7 @@ impl<T: Real> Tile<'_, T> {
             Nearest::Corner(corner) => {
                 let start = facet.corners[corner];
                 let ways = [corner, (corner + 2) % 3];
-                (start, ways.map(|side| self.opposite(side).map(|other| other - start)))
+                (start, ways.each(|side| self.opposite(side).map(|other| other - start)))
             }
         };
         let offset = place - start;
