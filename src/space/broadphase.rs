@@ -24,7 +24,7 @@ use grid::Grid;
 use order::CellOrder;
 use skin::{best_skin, neighbours};
 
-use crate::bodies::{Columns3, PerBody, Same, at};
+use crate::bodies::{Columns3, PerBody, Same};
 use crate::lane::Lane;
 use crate::numbers::array::Each;
 use crate::real::Real;
@@ -208,11 +208,14 @@ impl<T: Real> BroadPhase<T> {
         let mut ranks = core::mem::take(&mut self.ranks);
         ranks.resize(len, 0);
         let mut chunks: Vec<_> = ranks.chunks_mut(RANKED).enumerate().collect();
+        let (grids, reaches) = (&self.grids[..], &self.reaches[..]);
+        let position = surveyed.position.refs().each(|column| &column[..]);
         workers.each(&mut chunks, |(chunk, ranks)| {
+            let start = *chunk * RANKED;
+            let [x, y, z] = position.each(|column| &column[start..start + ranks.len()]);
             for (k, rank) in ranks.iter_mut().enumerate() {
-                let k = *chunk * RANKED + k;
-                let (grid, first) = &self.grids[class(&self.reaches, surveyed.radius.of(k))];
-                *rank = first + grid.rank(grid.cell(at(surveyed.position, k)));
+                let (grid, first) = &grids[class(reaches, surveyed.radius.of(start + k))];
+                *rank = first + grid.rank(grid.cell(Vec3::new(x[k], y[k], z[k])));
             }
         });
         self.order.sort(&ranks, first as usize);

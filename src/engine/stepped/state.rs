@@ -110,9 +110,10 @@ impl<T: Real> State<T> {
         for column in hot.chain(radius).chain(low).filter(|column| !column.is_empty()) {
             let mut chunks: Vec<_> =
                 self.spare.chunks_mut(REORDERED).zip(order.chunks(REORDERED)).collect();
+            let values = &column[..];
             workers.each(&mut chunks, |(slots, order)| {
                 for (slot, &from) in slots.iter_mut().zip(*order) {
-                    *slot = column[from as usize];
+                    *slot = values[from as usize];
                 }
             });
             core::mem::swap(column, &mut self.spare);
