@@ -62,7 +62,7 @@ fn every_builtin_scene() {
     fn builtin<T: Compiled>() {
         for builtin in builtin_scenes() {
             let scene = SceneFile::builtin(builtin.name).unwrap().build::<T>().unwrap();
-            let events = paths_agree(&scene, 5_000);
+            let events = paths_agree(&scene, 10_000);
             println!("{} in {}: {events} events", builtin.name, T::NAME);
         }
     }
