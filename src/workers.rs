@@ -66,9 +66,6 @@ impl Workers {
                 half => drop(rayon::join(|| split(half, work), || split(workers - half, work))),
             }
         }
-        match &self.pool {
-            Some(pool) if workers > 1 => pool.install(|| split(workers, work)),
-            _ => work(),
-        }
+        if workers > 1 { self.run(|| split(workers, work)) } else { work() }
     }
 }

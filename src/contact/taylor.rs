@@ -207,7 +207,8 @@ impl<T: Real, const N: usize> Expansion<T, N> {
         for coefficient in &mut self.coefficients {
             *coefficient = -*coefficient;
         }
-        Self { gap: -self.gap, ..self }
+        self.gap = -self.gap;
+        self
     }
 }
 

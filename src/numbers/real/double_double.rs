@@ -65,7 +65,7 @@ macro_rules! operations {
         impl $trait for DoubleDouble {
             type Output = Self;
 
-            // As calls: in place they were a third of the machine code of the engines.
+            // As calls: what runs in double-double was a third of the library's machine code.
             #[inline(never)]
             fn $method(self, other: Self) -> Self {
                 let apply: fn(fx128, fx128) -> fx128 = $apply;

@@ -83,11 +83,12 @@ impl<'a, T: Real> Members<'a, T> {
     #[inline(always)]
     fn read_lines(&self, lines: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
         let [xs, ys, zs] = lines;
-        let least = |line: &[u32]| line.iter().copied().fold(NOWHERE, u32::min) as usize;
-        let least: usize = lines.iter().map(|line| least(line)).sum();
+        // Iterators' `min` and `max` are calls where nothing is optimised at link time.
+        let least: usize =
+            lines.iter().map(|line| line.iter().copied().fold(NOWHERE, u32::min) as usize).sum();
         // Beyond all numbers if one of them is nowhere.
-        let last = |line: &[u32]| line.iter().copied().fold(0, u32::max) as usize;
-        let last: usize = lines.iter().map(|line| last(line)).sum();
+        let last: usize =
+            lines.iter().map(|line| line.iter().copied().fold(0, u32::max) as usize).sum();
         let run = self.slots.run(least..=last).filter(|_| self.blocks == 1);
         let Some(run) = run else { return self.read_lines_with_care(lines, found) };
         let mut len = 0;
