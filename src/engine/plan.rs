@@ -263,12 +263,17 @@ fn lanes<T: Real>(lanes: Lanes) -> (usize, usize) {
     }
 }
 
+/// Neighbours screened at once: sixteen in two registers each leave too few of them.
+pub(super) const SCREENED: usize = if cfg!(target_feature = "avx512f") { 16 } else { 8 };
+
 /// The widths for screening neighbours and for contact times. What is screened
 /// is half as large, so twice as many are taken at once.
 fn search_lanes<T: Real>(lanes: Lanes, has_screening: bool) -> (usize, usize) {
     let (_, gather) = self::lanes::<T>(lanes);
     match lanes {
-        Lanes::Auto | Lanes::Sixteen if has_screening => (16, gather),
+        _ if has_screening && <T::Pack4 as Lane>::WIDTH == 1 => (SCREENED, gather),
+        Lanes::Auto if has_screening => (SCREENED, gather),
+        Lanes::Sixteen if has_screening => (16, gather),
         _ => (gather, gather),
     }
 }

@@ -9,10 +9,12 @@ mod members;
 mod span;
 
 pub(crate) use axis::Ends;
-use axis::{Axis, BLOCK, WIDE, count, number, numbers};
+use axis::{Axis, BLOCK, Line, WIDE, count, number, numbers};
 use members::Spilled;
 pub(crate) use members::{CutCells, Members};
 pub(crate) use span::Span;
+
+use wide::u32x8;
 
 use super::pieces::{Pieces, cut};
 use crate::numbers::array::{self, Each};
@@ -41,8 +43,12 @@ const MOST_NUMBERS: u64 = 1 << 30;
 /// The most coordinates of cells along an axis, with some to spare in an `i32`.
 const MOST_COORDINATES: i32 = 1 << 29;
 
-/// Bodies that a block of a cell has room for, and their count.
+/// Numbers that a block of a cell has room for.
 const STRIDE: usize = 8;
+
+/// The slots of bodies in a cell, and in a cell's first block their count at the end. A
+/// pack, so that a block is copied at once and lies on one cache line.
+pub(crate) type Block = u32x8;
 
 /// The cells, and how they are numbered.
 #[derive(Debug)]
@@ -59,7 +65,7 @@ pub(crate) struct Cells<T> {
     blocks: usize,
     /// The slots of a cell's bodies, in as many blocks as the fullest cell
     /// needs; the last number of the first one is their count.
-    slots: Vec<[u32; STRIDE]>,
+    slots: Vec<Block>,
     /// The number of blocks up to which all cells grow with the fullest one.
     most_blocks: usize,
     spilled: Spilled,
@@ -109,14 +115,14 @@ impl<T: Real> Cells<T> {
             count: counts[k].saturating_mul(span.folds[k]),
             kept: counts[k],
             ends: span.ends,
-            parts: Vec::new(),
+            lines: Vec::new(),
         });
         let numbers = number(&mut axes);
         let margins = axes.refs().each(|axis| axis.side * T::ratio(1, MARGIN) + rounding);
         Self {
             grid: Grid { axes, margin: Vec3::from(margins) },
             blocks: 1,
-            slots: vec![[0; STRIDE]; numbers],
+            slots: vec![Block::splat(0); numbers],
             most_blocks: 2 * most as usize,
             spilled: Spilled::default(),
         }
@@ -164,7 +170,7 @@ impl<T: Real> Cells<T> {
     /// Takes all bodies out.
     pub fn clear(&mut self) {
         for block in self.slots.iter_mut().step_by(self.blocks) {
-            block[STRIDE - 1] = 0;
+            *block = Block::splat(0);
         }
         self.spilled.lists.clear();
     }
@@ -175,7 +181,7 @@ impl<T: Real> Cells<T> {
         let blocks = self.slots.len() * 2;
         let fits = blocks <= self.most_blocks;
         if fits {
-            self.slots = vec![[0; STRIDE]; blocks];
+            self.slots = vec![Block::splat(0); blocks];
             self.blocks *= 2;
         }
         fits
@@ -183,7 +189,7 @@ impl<T: Real> Cells<T> {
 
     /// The bytes that the cells hold.
     pub fn bytes(&self) -> usize {
-        self.slots.capacity() * size_of::<[u32; STRIDE]>()
+        self.slots.capacity() * size_of::<Block>()
     }
 }
 
@@ -368,7 +374,7 @@ impl<T: Real> Grid<T> {
     #[inline(always)]
     pub fn number_of(&self, cell: [i32; 3]) -> u32 {
         let [x, y, z] = self.lines(cell);
-        x[1] + y[1] + z[1]
+        x.cells[1] + y.cells[1] + z.cells[1]
     }
 
     /// Whether a cell is not beyond a closed end.
@@ -377,10 +383,10 @@ impl<T: Real> Grid<T> {
     }
 
     #[inline(always)]
-    fn lines(&self, cell: [i32; 3]) -> [[u32; 3]; 3] {
+    fn lines(&self, cell: [i32; 3]) -> [&Line; 3] {
         array::from_fn(|k| {
             let axis = &self.axes[k];
-            axis.parts[axis.folded(cell[k]) as usize]
+            &axis.lines[axis.folded(cell[k]) as usize]
         })
     }
 }

@@ -55,6 +55,23 @@ pub(super) struct Expected<T> {
     pub stamp: u32,
 }
 
+impl<T: Real> Expected<T> {
+    /// No contact: one that never comes.
+    fn none() -> Self {
+        let never = T::from_f64(f64::INFINITY);
+        Self { time: never, partner: PartnerCode::NONE, stamp: 0 }
+    }
+
+    #[inline(always)]
+    fn select(is_one: bool, one: Self, other: Self) -> Self {
+        Self {
+            time: if is_one { one.time } else { other.time },
+            partner: if is_one { one.partner } else { other.partner },
+            stamp: if is_one { one.stamp } else { other.stamp },
+        }
+    }
+}
+
 /// The face of a cell that a body leaves it through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Exit {
@@ -75,8 +92,8 @@ pub(super) struct Agenda<T: Real> {
     /// Up to when every contact that its own motion leads to is among the kept
     /// ones, or in the agenda of a partner that has changed later.
     complete_until: T,
+    /// The first contacts, in their order; none of them at the end.
     kept: [Expected<T>; KEPT],
-    len: u16,
     /// Through which face it leaves its cell.
     pub exit: Exit,
     /// Its cell's coordinates in the unbounded grid.
@@ -98,12 +115,10 @@ pub(super) enum Next<T> {
 impl<T: Real> Agenda<T> {
     /// A body of which nothing is known yet.
     pub fn new(cell: [i32; 3]) -> Self {
-        let none = Expected { time: T::ZERO, partner: PartnerCode::NONE, stamp: 0 };
         Self {
             leaves_cell: T::ZERO,
             complete_until: T::ZERO,
-            kept: [none; KEPT],
-            len: 0,
+            kept: [Expected::none(); KEPT],
             exit: Exit { axis: 0, up: false },
             cell,
             aligned: [],
@@ -113,7 +128,7 @@ impl<T: Real> Agenda<T> {
     /// Forgets all contacts: those up to `until` are about to be found again.
     #[inline(always)]
     pub fn clear(&mut self, until: T) {
-        self.len = 0;
+        self.kept = [Expected::none(); KEPT];
         self.complete_until = until;
     }
 
@@ -134,55 +149,59 @@ impl<T: Real> Agenda<T> {
         if found.time.ge(self.complete_until) {
             return;
         }
-        let len = self.len as usize;
-        let mut at = len;
-        while at > 0 {
-            let kept = self.kept[at - 1];
-            if kept == found {
-                // Found before.
-                return;
-            }
-            if kept.time < found.time || (kept.time == found.time && comes_first(&kept, &found)) {
-                break;
-            }
-            at -= 1;
+        let [first, second] = self.kept;
+        if found.time == first.time || found.time == second.time {
+            self.keep_tied(found, comes_first);
+            return;
         }
-        if len == KEPT {
-            let dropped = if at == KEPT { found } else { self.kept[KEPT - 1] };
-            self.complete_until = dropped.time;
-            if at == KEPT {
-                return;
-            }
-        } else {
-            self.len += 1;
+        // Without branches: which of them it is cannot be predicted.
+        let (is_first, is_second) = (found.time.lt(first.time), found.time.lt(second.time));
+        let dropped = T::select(is_second, second.time, found.time);
+        self.complete_until = self.complete_until.lesser(dropped);
+        let second = Expected::select(is_second, found, second);
+        self.kept =
+            [Expected::select(is_first, found, first), Expected::select(is_first, first, second)];
+    }
+
+    /// Keeps a contact that has the time of one of those that are kept.
+    #[cold]
+    fn keep_tied(
+        &mut self,
+        found: Expected<T>,
+        comes_first: impl Fn(&Expected<T>, &Expected<T>) -> bool,
+    ) {
+        if self.kept.contains(&found) {
+            return;
         }
-        for k in (at + 1..self.len as usize).rev() {
-            self.kept[k] = self.kept[k - 1];
+        let is_after = |kept: &Expected<T>| {
+            found.time < kept.time || found.time == kept.time && !comes_first(kept, &found)
+        };
+        let at = self.kept.iter().position(is_after).unwrap_or(KEPT);
+        let dropped = if at == KEPT { found } else { self.kept[KEPT - 1] };
+        self.complete_until = self.complete_until.lesser(dropped.time);
+        if at < KEPT {
+            self.kept.copy_within(at..KEPT - 1, at + 1);
+            self.kept[at] = found;
         }
-        self.kept[at] = found;
     }
 
     /// Drops the first of the kept contacts.
     #[inline(always)]
     pub fn drop_first(&mut self) {
-        for k in 1..KEPT {
-            self.kept[k - 1] = self.kept[k];
-        }
-        self.len -= 1;
+        self.kept = [self.kept[1], Expected::none()];
     }
 
     /// Whether the first contact has the same time as the second one, or as one that is
     /// not kept.
     #[inline(always)]
     pub fn is_tied(&self) -> bool {
-        let next = if self.len > 1 { self.kept[1].time } else { self.complete_until };
-        self.len > 0 && self.kept[0].time == next
+        self.kept[0].time == self.kept[1].time.lesser(self.complete_until)
     }
 
     /// When the first contact is, or a search for one.
     #[inline(always)]
     fn contact_time(&self) -> T {
-        if self.len > 0 { self.kept[0].time } else { self.complete_until }
+        self.kept[0].time.lesser(self.complete_until)
     }
 
     /// When the body has to be looked at next.
@@ -198,7 +217,7 @@ impl<T: Real> Agenda<T> {
     pub fn next(&self) -> Next<T> {
         if self.leaves_cell <= self.contact_time() {
             Next::LeavesCell
-        } else if self.len > 0 {
+        } else if self.kept[0].partner != PartnerCode::NONE {
             Next::Meets(self.kept[0])
         } else {
             Next::Searches

@@ -8,7 +8,7 @@
 //! no bit of any contact time depends on this.
 
 use super::flight::{Flight, Record};
-use super::meeting::meeting;
+use super::meeting::{TOGETHER, meeting, ones};
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
@@ -87,60 +87,61 @@ impl<C: Real> Screening<C> {
             radius: flight.radius.cast::<C>() + self.margin,
         })
     }
+}
 
-    /// Keeps of the bodies found those that the body at a slot might meet, and
+/// A screening of the bodies found near one, for contacts with an image of each.
+pub(super) struct Screen<'a, C: Real, S> {
+    pub records: &'a Pieces<'a, Record<C>>,
+    /// The body's slot.
+    pub slot: u32,
+    pub now: C,
+    pub space: S,
+    /// Which image, in whole boxes.
+    pub further: Vec3<C>,
+}
+
+impl<C: Real, S: Space<C>> Screen<'_, C, S> {
+    /// Puts those of the bodies found that the body might meet down as `remaining`, and
     /// returns how many. `found` holds whole packs. Those whose flights start now or
     /// later are put down as `later` besides, if asked for.
     ///
     /// Flights that start later are followed back: two that come near each other on
     /// their lines are kept, wherever on them they are now.
     #[inline(always)]
-    pub fn screen<L, F, S, const STARTS: bool>(
+    pub fn run<L, F, const STARTS: bool>(
         &self,
-        records: &Pieces<'_, Record<C>>,
-        slot: u32,
-        found: &mut [u32],
-        now: C,
-        (space, further): (S, &[Vec3<C>]),
+        screening: &Screening<C>,
+        found: &[u32],
+        remaining: &mut [u32],
         mut later: Option<&mut Vec<u32>>,
     ) -> usize
     where
         L: Lane<Scalar = C>,
         F: FlightStep,
-        S: Space<C>,
     {
+        let &Self { records, slot, now, space, further } = self;
         let flight = Flight::<L>::splat(&records[slot as usize].flight());
-        let (gravity, now) = (Vec3::<L>::splat(self.gravity), L::splat(now));
-        let slack = L::splat(self.slack);
-        let mut kept = 0;
-        for start in (0..found.len()).step_by(L::WIDTH) {
-            let others = Flight::<L>::gather(records, &found[start..start + L::WIDTH]);
-            if let Some(later) = &mut later {
-                put_down(others.since.ge(now).bits(), &found[start..], later);
-            }
-            let mut hits = 0;
-            for further in further {
-                let further = Vec3::<L>::splat(*further);
+        let (now, further) = (L::splat(now), Vec3::<L>::splat(further));
+        let (gravity, slack) = (Vec3::<L>::splat(screening.gravity), L::splat(screening.slack));
+        let mut len = 0;
+        for together in found.chunks(TOGETHER) {
+            // Looked at when all are worked out: which packs have hits cannot be predicted.
+            let (mut hits, mut starts_later) = (0, 0);
+            for (k, pack) in together.chunks_exact(L::WIDTH).enumerate() {
+                let others = Flight::<L>::gather(records, pack);
                 let met =
                     meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, now);
-                hits |= met.may_meet(slack).bits();
+                hits |= u64::from(met.may_meet(slack).bits()) << (k * L::WIDTH);
+                starts_later |= u64::from(others.since.ge(now).bits()) << (k * L::WIDTH);
             }
-            while hits != 0 {
-                let k = hits.trailing_zeros() as usize;
-                hits &= hits - 1;
-                found[kept] = found[start + k];
-                kept += 1;
+            for k in ones(hits) {
+                remaining[len] = together[k];
+                len += 1;
+            }
+            if let Some(later) = &mut later {
+                later.extend(ones(starts_later).map(|k| together[k]));
             }
         }
-        kept
-    }
-}
-
-/// Puts down the slots of a pack whose bits are set.
-#[inline(always)]
-pub(super) fn put_down(mut bits: u32, pack: &[u32], later: &mut Vec<u32>) {
-    while bits != 0 {
-        later.push(pack[bits.trailing_zeros() as usize]);
-        bits &= bits - 1;
+        len
     }
 }

@@ -73,12 +73,8 @@ pub(super) fn collide_with_feature<T: Real>(
 /// The body in a slot as it comes to a collision.
 #[inline(always)]
 fn arrival<T: Real>(setting: &Setting<T>, region: &Region<'_, T>, slot: usize) -> Arrival<T> {
-    let index = region.index[slot];
-    let spin = match region.spins.get(slot) {
-        Some(&spin) => spin,
-        None => setting.bodies.spin_of(index as usize),
-    };
-    Arrival { flight: region.records[slot].flight(), spin, index }
+    let spin = if setting.plan.changes_spins { region.spins[slot] } else { Vec3::ZERO };
+    Arrival { flight: region.records[slot].flight(), spin, index: region.index[slot] }
 }
 
 /// Ends the flight of the body in a slot: in a window it goes into the log; in strict
@@ -180,7 +176,7 @@ pub(super) fn made<T: Real>(
         let spin = region.logs().spin(entry);
         Arrival {
             flight: region.past(entry).flight(radius),
-            spin: spin.unwrap_or_else(|| setting.bodies.spin_of(index as usize)),
+            spin: spin.unwrap_or(Vec3::ZERO),
             index,
         }
     };

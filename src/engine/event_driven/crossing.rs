@@ -15,8 +15,8 @@ use crate::real::Real;
 fn leaves<T: Real>([low, high]: [T; 2], position: T, speed: T, acceleration: T) -> (T, bool) {
     let positive = |value: T| value.greater(T::ZERO);
     if acceleration == T::ZERO {
-        let up = speed > T::ZERO;
-        let way = if up { high - position } else { position - low };
+        let up = speed.gt(T::ZERO);
+        let way = T::select(up, high - position, position - low);
         return (positive(way) / speed.abs(), up);
     }
     // The way ahead in the direction of the acceleration, and against it.
@@ -58,16 +58,18 @@ pub(super) fn plan_crossing<T: Real>(
     let (position, velocity) = (position.to_array(), velocity.to_array());
     let gravity = setting.gravity.to_array();
     let agenda = &mut region.agendas[slot as usize];
-    let mut first = (T::from_f64(1e30), Exit { axis: 0, up: false });
+    let (mut first, mut exit) = (T::from_f64(1e30), Exit { axis: 0, up: false });
     for axis in 0..3 {
         let bounds = region.cells.finest.grid.bounds(agenda.cell, axis);
         let (time, up) = leaves(bounds, position[axis], velocity[axis], gravity[axis]);
-        if time < first.0 {
-            first = (time, Exit { axis: axis as u8, up });
-        }
+        // Without branches: which axis it is cannot be predicted.
+        let is_first = time.lt(first);
+        first = T::select(is_first, time, first);
+        exit.axis = if is_first { axis as u8 } else { exit.axis };
+        exit.up = if is_first { up } else { exit.up };
     }
-    agenda.leaves_cell = now + first.0;
-    agenda.exit = first.1;
+    agenda.leaves_cell = now + first;
+    agenda.exit = exit;
 }
 
 /// Takes the body in a slot to the next cell, and looks who is ahead.

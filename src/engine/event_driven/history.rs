@@ -54,11 +54,15 @@ pub(super) fn tell<T: Real>(
         let own = region.index[slot as usize];
         on_event(&match made(setting, region, slot, entry) {
             Made::Pair(other, made) => {
-                pair_event(clock, [own, region.index[other as usize]], &made, key.time)
+                pair_event(setting, clock, [own, region.index[other as usize]], &made, key.time)
             }
-            Made::Feature(feature, made) => {
-                feature_event(clock, (own, setting.features.shape_of(feature)), &made, key.time)
-            }
+            Made::Feature(feature, made) => feature_event(
+                setting,
+                clock,
+                (own, setting.features.shape_of(feature)),
+                &made,
+                key.time,
+            ),
             Made::Other => continue,
         });
     }

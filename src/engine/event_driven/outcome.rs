@@ -16,6 +16,7 @@ use crate::vec3::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arrival<T> {
     pub flight: Flight<T>,
+    /// If collisions change it.
     pub spin: Vec3<T>,
     /// Its index in the scene.
     pub index: u32,
@@ -25,6 +26,7 @@ pub(super) struct Arrival<T> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Departure<T> {
     pub flight: Flight<T>,
+    /// If collisions change it.
     pub spin: Vec3<T>,
     /// By how many whole periodic boxes its position was set back.
     pub turns: Vec3<T>,
@@ -87,10 +89,8 @@ pub(super) fn pair_outcome<T: Real>(
     let mut party_a = party(setting, a, &flight_a, share_a);
     let mut party_b = party(setting, b, &flight_b, share_b);
     let impulse = collide(setting, offset, &mut party_a, &mut party_b);
-    let departures = [
-        departure(setting, a, flight_a, turns_a, &party_a),
-        departure(setting, b, flight_b, turns_b, &party_b),
-    ];
+    let departures =
+        [departure(flight_a, turns_a, &party_a), departure(flight_b, turns_b, &party_b)];
     PairOutcome { departures, impulse, offset, arm: offset * share_a }
 }
 
@@ -109,7 +109,7 @@ pub(super) fn feature_outcome<T: Real>(
     let arm = clearance(setting, &flight, feature).arm;
     let mut own = party(setting, arrival, &flight, T::ONE);
     let impulse = collide(setting, arm, &mut own, &mut Party::immovable());
-    let departure = departure(setting, arrival, flight, turns, &own);
+    let departure = departure(flight, turns, &own);
     FeatureOutcome { departure, impulse, arm }
 }
 
@@ -151,7 +151,7 @@ fn party<T: Real>(
     let index = arrival.index as usize;
     Party {
         velocity: flight.velocity,
-        spin: if setting.plan.changes_spins { arrival.spin } else { Vec3::ZERO },
+        spin: arrival.spin,
         inverse_mass: setting.inverse_mass.of(index),
         inverse_inertia: setting.inverse_inertia.of(index),
         share,
@@ -171,13 +171,7 @@ fn collide<T: Real>(
 }
 
 #[inline(always)]
-fn departure<T: Real>(
-    setting: &Setting<T>,
-    arrival: &Arrival<T>,
-    flight: Flight<T>,
-    turns: Vec3<T>,
-    party: &Party<T>,
-) -> Departure<T> {
-    let spin = if setting.plan.changes_spins { party.spin } else { arrival.spin };
-    Departure { flight: Flight { velocity: party.velocity, ..flight }, spin, turns }
+fn departure<T: Real>(flight: Flight<T>, turns: Vec3<T>, party: &Party<T>) -> Departure<T> {
+    let flight = Flight { velocity: party.velocity, ..flight };
+    Departure { flight, spin: party.spin, turns }
 }

@@ -82,9 +82,10 @@ pub(super) struct Worker<T: Real> {
     /// Whether a body has touched a part that removes it.
     pub has_removed: bool,
 
-    /// Slots of bodies that a body may meet, for each of two bodies that have collided.
-    pub found: [Vec<u32>; 2],
-    /// Those of them whose flights start later than now.
+    /// Slots of bodies that a body may meet, for each of two bodies that have collided, and
+    /// those that screening has left over.
+    pub found: [Vec<u32>; 3],
+    /// Those found whose flights start later than now.
     pub later: Vec<u32>,
     pub meetings: Meetings<T>,
     /// Bodies whose flights are taken back, and from which collision on.
@@ -109,7 +110,7 @@ impl<T: Real> Worker<T> {
             is_stuck: false,
             is_too_fast: false,
             has_removed: false,
-            found: [Vec::new(), Vec::new()],
+            found: [Vec::new(), Vec::new(), Vec::new()],
             later: Vec::new(),
             meetings: Meetings::new(),
             undo: Vec::new(),

@@ -1,13 +1,13 @@
 //! Search: what a body will meet.
 
 use super::agenda::{Expected, PartnerCode};
-use super::coarse::put_down;
+use super::coarse::Screen;
 use super::features::search_features;
 use super::flight::{Flight, WIDEST};
-use super::meeting::{TOGETHER, meeting};
+use super::meeting::{TOGETHER, meeting, ones};
 use super::region::Region;
 use super::setting::Setting;
-use crate::engine::plan::Plan;
+use crate::engine::plan::{Plan, SCREENED};
 use crate::lane::{Lane, Mask};
 use crate::motion::integrator::{Coasting, FlightStep, VelocityVerlet};
 use crate::real::Real;
@@ -167,6 +167,9 @@ struct Found<'a, T: Real, S, R> {
     coarse: R,
 }
 
+/// The list of bodies that screening has left over.
+const REMAINING: usize = 2;
+
 impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
     #[inline(always)]
     fn run<L, C, F>(&self, region: &mut Region<'_, T>, len: usize)
@@ -180,16 +183,19 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
         let has_pasts = region.has_pasts();
         region.worker.later.clear();
         let starts = region.records[self.slot as usize].since() == self.now;
-        let len = if starts {
-            self.screened::<C, F, true>(region, len, has_pasts)
-        } else {
-            self.screened::<C, F, false>(region, len, has_pasts)
-        };
-        region.worker.account.effort.remaining += len as u64;
-        if starts && !has_pasts {
-            self.search_packs::<L, F, true>(region, len, false);
-        } else {
-            self.search_packs::<L, F, false>(region, len, has_pasts);
+        // One, but in narrow boxes.
+        for image in 0..self.setting.further.len() {
+            let nearby = if starts {
+                self.screened::<C, F, true>(region, len, image, has_pasts)
+            } else {
+                self.screened::<C, F, false>(region, len, image, has_pasts)
+            };
+            region.worker.account.effort.remaining += nearby.len as u64;
+            if starts && !has_pasts {
+                self.search_packs::<L, F, true>(region, nearby, image, false);
+            } else {
+                self.search_packs::<L, F, false>(region, nearby, image, has_pasts);
+            }
         }
         if has_pasts {
             self.search_pasts::<F>(region);
@@ -203,82 +209,85 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
         &self,
         region: &mut Region<'_, T>,
         len: usize,
+        image: usize,
         has_pasts: bool,
-    ) -> usize
+    ) -> Nearby
     where
         C: Lane<Scalar = T::Coarse>,
         F: FlightStep,
     {
+        let &Self { setting, slot, list, now, coarse: space, .. } = self;
         // Otherwise the coarse precision is this one.
         if const { size_of::<T::Coarse>() == size_of::<T>() } || !region.screening.is_useful {
-            return len;
+            return Nearby { list, len };
         }
-        let whole = len.next_multiple_of(C::WIDTH);
-        let found = &mut region.worker.found[self.list][..whole];
-        found[len..].fill(self.slot);
-        let now = T::Coarse::from_f64(self.now.to_f64());
-        let images = (self.coarse, &self.setting.coarse_further[..]);
+        let [first, second, remaining] = &mut region.worker.found;
+        let found = filled_up::<C>(if list == 0 { first } else { second }, len, slot);
+        let now = T::Coarse::from_f64(now.to_f64());
+        let further = setting.coarse_further[image];
         let later = has_pasts.then_some(&mut region.worker.later);
-        let (screening, coarse) = (region.screening, &region.coarse);
-        screening.screen::<C, F, R, STARTS>(coarse, self.slot, found, now, images, later)
+        let screen = Screen { records: &region.coarse, slot, now, space, further };
+        let len = screen.run::<C, F, STARTS>(region.screening, found, remaining, later);
+        Nearby { list: REMAINING, len }
     }
 
-    /// Looks for contacts with the bodies found, in whole packs, the last one
-    /// filled up with the body itself.
+    /// Looks for contacts with an image of each of the bodies found, in whole packs, the
+    /// last one filled up with the body itself.
     #[inline(always)]
     fn search_packs<L, F, const STARTS: bool>(
         &self,
         region: &mut Region<'_, T>,
-        len: usize,
+        Nearby { list, len }: Nearby,
+        image: usize,
         has_pasts: bool,
     ) where
         L: Lane<Scalar = T>,
         F: FlightStep,
     {
-        let &Self { setting, slot, list, now, space, .. } = self;
-        let end = len.next_multiple_of(L::WIDTH);
-        region.worker.found[list][len..end].fill(slot);
+        let &Self { setting, slot, now, space, .. } = self;
+        let image = setting.further[image];
+        let whole = filled_up::<L>(&mut region.worker.found[list], len, slot).len();
         let own = region.records[slot as usize].flight();
         let (flight, gravity) = (Flight::<L>::splat(&own), Vec3::<L>::splat(setting.gravity));
-        let at = L::splat(now);
+        let (at, further) = (L::splat(now), Vec3::<L>::splat(image));
+        let own_code = PartnerCode::body(region.index[slot as usize]);
+        let last = region.marks[slot as usize].last;
         let is_unscreened = has_pasts && !region.screening.is_useful;
-        for &image in &setting.further {
-            let further = Vec3::<L>::splat(image);
-            for start in (0..end).step_by(TOGETHER) {
-                let end = end.min(start + TOGETHER);
-                let worker = &mut *region.worker;
-                let packs = worker.found[list][start..end].chunks_exact(L::WIDTH);
-                for (pack, found) in packs.enumerate() {
-                    let others = Flight::<L>::gather(&region.records, found);
-                    if is_unscreened {
-                        put_down(others.since.ge(at).bits(), found, &mut worker.later);
-                    }
-                    let met =
-                        meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, at);
-                    worker.meetings.put(pack * L::WIDTH, &met);
-                }
-                while let Some((k, time)) = region.worker.meetings.take() {
-                    let other = region.worker.found[list][start + k];
-                    if time.ge(region.agendas[slot as usize].complete_until()) {
+        let mut start = 0;
+        while start < whole {
+            let end = whole.min(start + TOGETHER);
+            let worker = &mut *region.worker;
+            let together = &worker.found[list][start..end];
+            let mut starts_later = 0;
+            for (pack, found) in together.chunks_exact(L::WIDTH).enumerate() {
+                let others = Flight::<L>::gather(&region.records, found);
+                starts_later |= u64::from(others.since.ge(at).bits()) << (pack * L::WIDTH);
+                let met = meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, at);
+                worker.meetings.put(pack * L::WIDTH, &met);
+            }
+            if is_unscreened {
+                worker.later.extend(ones(starts_later).map(|k| together[k]));
+            }
+            while let Some((k, time)) = region.worker.meetings.take() {
+                let other = region.worker.found[list][start + k];
+                if last == PartnerCode::body(region.index[other as usize])
+                    && region.marks[other as usize].last == own_code
+                {
+                    // Rounding may tell that two bodies that have just met
+                    // approach again. Through the other side of a periodic
+                    // box they may well meet.
+                    let other = region.records[other as usize].flight();
+                    let gravity = setting.gravity;
+                    let met = meeting::<T, F, S, STARTS>(&own, &other, gravity, space, image, now);
+                    if met.is_touching() {
                         continue;
                     }
-                    if met_last(region, slot as usize, other as usize) {
-                        // Rounding may tell that two bodies that have just met
-                        // approach again. Through the other side of a periodic
-                        // box they may well meet.
-                        let other = region.records[other as usize].flight();
-                        let gravity = setting.gravity;
-                        let met =
-                            meeting::<T, F, S, STARTS>(&own, &other, gravity, space, image, now);
-                        if met.is_touching() {
-                            continue;
-                        }
-                    }
-                    let stamp = region.marks[other as usize].stamp;
-                    let partner = PartnerCode::body(other);
-                    keep(region, slot, Expected { time, partner, stamp });
                 }
+                let stamp = region.marks[other as usize].stamp;
+                let partner = PartnerCode::body(other);
+                keep(region, slot, Expected { time, partner, stamp });
             }
+            start = end;
         }
     }
 
@@ -341,19 +350,20 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
     }
 }
 
+/// The bodies found, in whole packs: the last one is filled up with the body in a slot.
+#[inline(always)]
+fn filled_up<L: Lane>(found: &mut [u32], len: usize, slot: u32) -> &mut [u32] {
+    // All of a pack: a number of moves that is known beforehand.
+    found[len..len + L::WIDTH].fill(slot);
+    &mut found[..len.next_multiple_of(L::WIDTH)]
+}
+
 /// Keeps a contact of the body in a slot if it is among its first.
 #[inline(always)]
 pub(super) fn keep<T: Real>(region: &mut Region<'_, T>, slot: u32, found: Expected<T>) {
     let (keys, agendas, _) = region.in_order();
     let comes_first = |a: &Expected<T>, b: &Expected<T>| keys.of(slot, a) < keys.of(slot, b);
     agendas[slot as usize].keep(found, comes_first);
-}
-
-/// Whether each of two bodies has met no other since they met each other.
-#[inline(always)]
-fn met_last<T: Real>(region: &Region<'_, T>, a: usize, b: usize) -> bool {
-    let is_last = |a: usize, b: usize| region.marks[a].last == PartnerCode::body(region.index[b]);
-    is_last(a, b) && is_last(b, a)
 }
 
 /// The search of a plan. Widths that the plan of a precision never chooses are
@@ -363,11 +373,18 @@ pub(super) fn searcher<T: Real>(plan: &Plan, is_periodic: bool) -> Search<T> {
     type Pack8<T> = <<T as Real>::Coarse as Real>::Pack8;
     type Pack16<T> = <<T as Real>::Coarse as Real>::Pack16;
     if const { <T::Pack8 as Lane>::WIDTH == 1 } {
-        return searcher_in::<T, T, Pack16<T>>(plan, is_periodic);
+        return if const { SCREENED == 16 } {
+            searcher_in::<T, T, Pack16<T>>(plan, is_periodic)
+        } else {
+            searcher_in::<T, T, Pack8<T>>(plan, is_periodic)
+        };
     }
     if const { size_of::<T::Coarse>() < size_of::<T>() } && plan.sweep_lanes > plan.gather_lanes {
         return match plan.gather_lanes {
-            4 => searcher_in::<T, T::Pack4, Pack16<T>>(plan, is_periodic),
+            4 if const { SCREENED == 16 } => {
+                searcher_in::<T, T::Pack4, Pack16<T>>(plan, is_periodic)
+            }
+            4 => searcher_in::<T, T::Pack4, Pack8<T>>(plan, is_periodic),
             _ => searcher_in::<T, T::Pack8, Pack16<T>>(plan, is_periodic),
         };
     }

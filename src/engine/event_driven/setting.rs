@@ -142,6 +142,12 @@ impl<T: Real> Setting<T> {
         }
     }
 
+    /// Angular velocity of the body of an index, rad per time: `changed` if collisions
+    /// change it.
+    pub fn spin_of(&self, index: u32, changed: Vec3<T>) -> Vec3<T> {
+        if self.plan.changes_spins { changed } else { self.bodies.spin_of(index as usize) }
+    }
+
     /// Gives up what the region keeps now.
     pub fn leave_to_region(&mut self) {
         let nothing = || array::from_fn(|_| Column::new(0, T::ZERO));

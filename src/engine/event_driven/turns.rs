@@ -76,7 +76,7 @@ pub(super) fn take_turn<T: Real>(
                     if let Some(on_event) = on_event {
                         let part = setting.features.shape_of(feature);
                         let bodies = (region.index[slot as usize], part);
-                        on_event(&feature_event(clock, bodies, &made, time));
+                        on_event(&feature_event(setting, clock, bodies, &made, time));
                     }
                     return Ok(true);
                 }
@@ -92,7 +92,7 @@ pub(super) fn take_turn<T: Real>(
                     let made = collide_pair(setting, region, clock, pair, nearby, when);
                     if let Some(on_event) = on_event {
                         let bodies = pair.each(|slot| region.index[slot as usize]);
-                        on_event(&pair_event(clock, bodies, &made, time));
+                        on_event(&pair_event(setting, clock, bodies, &made, time));
                     }
                     return Ok(true);
                 }

@@ -219,11 +219,9 @@ fn sixteen_of_f32(records: &[&[f32; 8]]) -> [f32x16; 8] {
 #[inline(always)]
 fn four_of_f64(records: &[&[f64; 8]]) -> [f64x4; 8] {
     let records = &records[..4];
-    let halves: [[f64x4; 4]; 2] = array::from_fn(|half| {
-        f64x4::transpose(array::from_fn(|k| {
-            f64x4::new(array::from_fn(|j| records[k][4 * half + j]))
-        }))
-    });
+    let rows: [[f64x4; 2]; 4] = array::from_fn(|k| wide::bytemuck::cast(*records[k]));
+    let halves: [[f64x4; 4]; 2] =
+        array::from_fn(|half| f64x4::transpose(array::from_fn(|k| rows[k][half])));
     array::from_fn(|j| halves[j / 4][j % 4])
 }
 

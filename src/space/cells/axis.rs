@@ -34,9 +34,24 @@ pub(super) struct Axis<T> {
     /// Cells with memory of their own; all others fold into them.
     pub(super) kept: i32,
     pub(super) ends: Ends,
-    /// For each of these what the one before it, it and the one after it add to
-    /// the number of a cell.
-    pub(super) parts: Vec<[u32; 3]>,
+    /// Each of these with its neighbours.
+    pub(super) lines: Vec<Line>,
+}
+
+/// A cell along one axis with its neighbours: what each adds to the number of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line {
+    /// The one before it, it and the one after it.
+    pub(super) cells: [u32; 3],
+    /// The least and the greatest of these; [`NOWHERE`] is the greatest of all.
+    pub(super) ends: [u32; 2],
+}
+
+impl Line {
+    fn new(cells: [u32; 3]) -> Self {
+        let [a, b, c] = cells;
+        Self { cells, ends: [a.min(b).min(c), a.max(b).max(c)] }
+    }
 }
 
 impl<T: Real> Axis<T> {
@@ -103,8 +118,8 @@ pub(super) fn number<T: Real>(axes: &mut [Axis<T>; 3]) -> usize {
             // With two cells each is the other's only neighbour.
             _ => NOWHERE,
         };
-        axis.parts =
-            (0..kept).map(|cell| [neighbour(cell - 1), part(cell), neighbour(cell + 1)]).collect();
+        let around = |cell: i32| [neighbour(cell - 1), part(cell), neighbour(cell + 1)];
+        axis.lines = (0..kept).map(|cell| Line::new(around(cell))).collect();
     }
     (between[2] * blocks[2]) as usize
 }

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use wide::bytemuck::{cast, cast_slice, cast_slice_mut};
+
 use super::axis::NOWHERE;
-use super::{Grid, STRIDE};
-use crate::numbers::array::Each;
+use super::{Block, Grid, STRIDE};
+use crate::numbers::array::{self, Each};
 use crate::real::Real;
 use crate::space::pieces::Pieces;
 
@@ -21,7 +23,7 @@ pub(crate) struct Spilled {
 pub(crate) struct CutCells<'a, T> {
     pub grid: &'a Grid<T>,
     pub blocks: usize,
-    pub runs: Vec<&'a mut [[u32; STRIDE]]>,
+    pub runs: Vec<&'a mut [Block]>,
 }
 
 /// The grid, and the cells that a worker holds with the slots of their bodies.
@@ -29,7 +31,7 @@ pub(crate) struct CutCells<'a, T> {
 pub(crate) struct Members<'a, T> {
     pub grid: &'a Grid<T>,
     pub(super) blocks: usize,
-    pub(super) slots: Pieces<'a, [u32; STRIDE]>,
+    pub(super) slots: Pieces<'a, Block>,
     pub(super) spilled: &'a mut Spilled,
     /// Whether it holds all cells.
     pub(super) is_whole: bool,
@@ -40,7 +42,7 @@ impl<'a, T: Real> Members<'a, T> {
     pub fn of(
         grid: &'a Grid<T>,
         blocks: usize,
-        runs: [&'a mut [[u32; STRIDE]]; 2],
+        runs: [&'a mut [Block]; 2],
         starts: [usize; 2],
         spilled: &'a mut Spilled,
     ) -> Self {
@@ -56,7 +58,7 @@ impl<'a, T: Real> Members<'a, T> {
             || self
                 .slots
                 .get(number as usize * self.blocks)
-                .is_some_and(|block| block[STRIDE - 1] as usize <= self.room())
+                .is_some_and(|block| count(block) <= self.room())
     }
 
     /// The bodies in a cell and in those around it, into `found`, which has
@@ -64,8 +66,8 @@ impl<'a, T: Real> Members<'a, T> {
     /// these cells are not held.
     #[inline(always)]
     pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> Option<usize> {
-        let lines = self.grid.lines(cell);
-        self.read_lines(lines.refs().each(|line| &line[..]), found)
+        let [x, y, z] = self.grid.lines(cell);
+        self.read_lines(x.cells, y.cells, z.cells, [x.ends, y.ends, z.ends], found)
     }
 
     /// The bodies in the layer of cells around `cell` that has come near when
@@ -73,40 +75,52 @@ impl<'a, T: Real> Members<'a, T> {
     #[inline(always)]
     pub fn ahead(&self, cell: [i32; 3], axis: usize, up: bool, found: &mut [u32]) -> Option<usize> {
         let lines = self.grid.lines(cell);
-        let mut lines = lines.refs().each(|line| &line[..]);
-        if !self.grid.are_all_neighbours(axis) {
-            lines[axis] = if up { &lines[axis][2..] } else { &lines[axis][..1] };
+        let mut ends = lines.each(|line| line.ends);
+        let [x, y, z] = lines.each(|line| line.cells);
+        if self.grid.are_all_neighbours(axis) {
+            return self.read_lines(x, y, z, ends, found);
         }
-        self.read_lines(lines, found)
+        let ahead = |cells: [u32; 3]| [cells[if up { 2 } else { 0 }]];
+        let [layer] = ahead(lines[axis].cells);
+        ends[axis] = [layer; 2];
+        match axis {
+            0 => self.read_lines(ahead(x), y, z, ends, found),
+            1 => self.read_lines(x, ahead(y), z, ends, found),
+            _ => self.read_lines(x, y, ahead(z), ends, found),
+        }
     }
 
-    #[inline(always)]
-    fn read_lines(&self, lines: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
-        let [xs, ys, zs] = lines;
-        // Iterators' `min` and `max` are calls where nothing is optimised at link time.
-        let least: usize =
-            lines.iter().map(|line| line.iter().copied().fold(NOWHERE, u32::min) as usize).sum();
-        // Beyond all numbers if one of them is nowhere.
-        let last: usize =
-            lines.iter().map(|line| line.iter().copied().fold(0, u32::max) as usize).sum();
+    /// The bodies in the cells along three axes, of which the least and the greatest are
+    /// `ends`.
+    fn read_lines<const X: usize, const Y: usize, const Z: usize>(
+        &self,
+        xs: [u32; X],
+        ys: [u32; Y],
+        zs: [u32; Z],
+        ends: [[u32; 2]; 3],
+        found: &mut [u32],
+    ) -> Option<usize> {
+        let [least, last] = array::from_fn(|k| ends.iter().map(|ends| ends[k] as usize).sum());
+        // The last is beyond all numbers if one of them is nowhere.
         let run = self.slots.run(least..=last).filter(|_| self.blocks == 1);
-        let Some(run) = run else { return self.read_lines_with_care(lines, found) };
-        let mut len = 0;
-        for &z in zs {
-            for &y in ys {
-                for &x in xs {
+        let Some(run) = run else { return self.read_lines_with_care([&xs, &ys, &zs], found) };
+        let room = found.len();
+        let mut rest = &mut *found;
+        for z in zs {
+            for y in ys {
+                let row = (y + z).wrapping_sub(least as u32);
+                for x in xs {
                     // A whole block is copied faster than a few numbers are counted.
-                    let block = &run[((x + y + z) as usize).wrapping_sub(least)];
-                    put(block, &mut found[len..]);
-                    let count = block[STRIDE - 1] as usize;
+                    let block = &run[row.wrapping_add(x) as usize];
+                    let count = put(block, rest);
                     if count >= STRIDE {
-                        return self.read_lines_with_care(lines, found);
+                        return self.read_lines_with_care([&xs, &ys, &zs], found);
                     }
-                    len += count;
+                    rest = &mut rest[count..];
                 }
             }
         }
-        Some(len)
+        Some(room - rest.len())
     }
 
     /// Where cells are nowhere, or not held in one run, or have more bodies than a block.
@@ -143,16 +157,14 @@ impl<'a, T: Real> Members<'a, T> {
         if self.blocks > 1 {
             return self.read_blocks(number, found, len);
         }
-        let block = &self.slots[number as usize];
-        put(block, &mut found[len..]);
-        let count = block[STRIDE - 1] as usize;
+        let count = put(&self.slots[number as usize], &mut found[len..]);
         if count < STRIDE { len + count } else { self.read_blocks(number, found, len) }
     }
 
     #[inline(never)]
     fn read_blocks(&self, number: u32, found: &mut [u32], len: usize) -> usize {
         let start = number as usize * self.blocks;
-        let slots = self.slots[start..start + self.blocks].as_flattened();
+        let slots = cast_slice::<Block, u32>(&self.slots[start..start + self.blocks]);
         let count = slots[STRIDE - 1] as usize;
         let within = count.min(self.room());
         let first = within.min(STRIDE - 1);
@@ -184,13 +196,13 @@ impl<'a, T: Real> Members<'a, T> {
     /// How many more bodies the blocks of a cell have room for.
     pub fn room_in(&self, number: u32) -> usize {
         let start = number as usize * self.blocks;
-        self.room().saturating_sub(self.slots[start][STRIDE - 1] as usize)
+        self.room().saturating_sub(count(&self.slots[start]))
     }
 
     /// The slots of a cell's bodies and their count, as they lie in memory.
     fn slots_in(&mut self, number: u32) -> &mut [u32] {
         let start = number as usize * self.blocks;
-        self.slots[start..start + self.blocks].as_flattened_mut()
+        cast_slice_mut(&mut self.slots[start..start + self.blocks])
     }
 
     /// Puts a body into the cell of a number.
@@ -210,7 +222,7 @@ impl<'a, T: Real> Members<'a, T> {
     /// Whether a body is in the cell of a number.
     pub fn has(&self, number: u32, slot: u32) -> bool {
         let start = number as usize * self.blocks;
-        let slots = self.slots[start..start + self.blocks].as_flattened();
+        let slots = cast_slice::<Block, u32>(&self.slots[start..start + self.blocks]);
         let count = slots[STRIDE - 1] as usize;
         (0..count.min(self.room())).any(|k| slots[nth(k)] == slot)
             || count > self.room()
@@ -260,9 +272,18 @@ fn nth(number: usize) -> usize {
     number + usize::from(number >= STRIDE - 1)
 }
 
-/// A block to the start of `found`: its length is known, so this is a few moves of vectors.
+/// How many bodies a cell has, by its first block.
 #[inline(always)]
-fn put(block: &[u32; STRIDE], found: &mut [u32]) {
+fn count(block: &Block) -> usize {
+    block.to_array()[STRIDE - 1] as usize
+}
+
+/// A block to the start of `found`. Returns how many bodies the cell has.
+#[inline(always)]
+fn put(block: &Block, found: &mut [u32]) -> usize {
     let Some(room) = found.first_chunk_mut() else { unreachable!("no room for a block") };
-    *room = *block;
+    // Taken by two numbers at once: what is read as one of eight is copied one by one.
+    let [.., last]: [u64; STRIDE / 2] = cast(*block);
+    *room = block.to_array();
+    (last >> u32::BITS) as usize
 }
