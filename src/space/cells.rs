@@ -14,7 +14,7 @@ use members::Spilled;
 pub(crate) use members::{CutCells, Members};
 pub(crate) use span::Span;
 
-use wide::u32x8;
+use wide::u32x4;
 
 use super::pieces::{Pieces, cut};
 use crate::numbers::array::{self, Each};
@@ -43,12 +43,15 @@ const MOST_NUMBERS: u64 = 1 << 30;
 /// The most coordinates of cells along an axis, with some to spare in an `i32`.
 const MOST_COORDINATES: i32 = 1 << 29;
 
-/// Numbers that a block of a cell has room for.
-const STRIDE: usize = 8;
+/// Bodies that a block of a cell has room for.
+const STRIDE: usize = 4;
 
-/// The slots of bodies in a cell, and in a cell's first block their count at the end. A
-/// pack, so that a block is copied at once and lies on one cache line.
-pub(crate) type Block = u32x8;
+/// The most blocks of a cell.
+const MOST_BLOCKS: usize = 32;
+
+/// The slots of bodies in a cell. A pack, so that it is copied at once and lies on one
+/// cache line.
+pub(crate) type Block = u32x4;
 
 /// The cells, and how they are numbered.
 #[derive(Debug)]
@@ -63,9 +66,10 @@ pub(crate) struct Cells<T> {
     grid: Grid<T>,
     /// Blocks of a cell.
     blocks: usize,
-    /// The slots of a cell's bodies, in as many blocks as the fullest cell
-    /// needs; the last number of the first one is their count.
+    /// The slots of a cell's bodies, in as many blocks as the fullest cell needs.
     slots: Vec<Block>,
+    /// How many bodies a cell has.
+    counts: Vec<u8>,
     /// The number of blocks up to which all cells grow with the fullest one.
     most_blocks: usize,
     spilled: Spilled,
@@ -105,7 +109,7 @@ impl<T: Real> Cells<T> {
     }
 
     /// A grid of empty cells, `counts` of them in memory along each axis. It grows to
-    /// at most twice `most` blocks.
+    /// at most four times `most` blocks.
     fn of_counts(span: Span<T>, counts: [i32; 3], most: u64) -> Self {
         let (lower, extent) = (span.lower.to_array(), span.part());
         let rounding = rounding(span);
@@ -123,14 +127,15 @@ impl<T: Real> Cells<T> {
             grid: Grid { axes, margin: Vec3::from(margins) },
             blocks: 1,
             slots: vec![Block::splat(0); numbers],
-            most_blocks: 2 * most as usize,
+            counts: vec![0; numbers],
+            most_blocks: 4 * most as usize,
             spilled: Spilled::default(),
         }
     }
 
     /// An empty grid of the same space with `counts` cells along each axis.
     pub fn divided(&self, span: Span<T>, counts: [i32; 3]) -> Self {
-        Self::of_counts(span, counts, self.most_blocks as u64 / 2)
+        Self::of_counts(span, counts, self.most_blocks as u64 / 4)
     }
 
     /// The grid.
@@ -144,6 +149,7 @@ impl<T: Real> Cells<T> {
             grid: &self.grid,
             blocks: self.blocks,
             slots: Pieces::whole(&mut self.slots),
+            counts: Pieces::whole(&mut self.counts),
             spilled: &mut self.spilled,
             is_whole: true,
         }
@@ -151,15 +157,15 @@ impl<T: Real> Cells<T> {
 
     /// The cells cut at rising numbers, the last of them that of all cells, and what
     /// else a worker needs for [`Members::of`].
-    pub fn cut(&mut self, ends: impl Iterator<Item = usize>) -> CutCells<'_, T> {
+    pub fn cut(&mut self, ends: impl Iterator<Item = usize> + Clone) -> CutCells<'_, T> {
         let blocks = self.blocks;
-        let runs = cut(&mut self.slots, ends.map(|end| end * blocks));
-        CutCells { grid: &self.grid, blocks, runs }
+        let slots = cut(&mut self.slots, ends.clone().map(|end| end * blocks));
+        CutCells { grid: &self.grid, blocks, slots, counts: cut(&mut self.counts, ends) }
     }
 
     /// How many cells have numbers.
     pub fn numbers(&self) -> usize {
-        self.slots.len() / self.blocks
+        self.counts.len()
     }
 
     /// Whether a cell has more bodies than its blocks have room for.
@@ -169,9 +175,7 @@ impl<T: Real> Cells<T> {
 
     /// Takes all bodies out.
     pub fn clear(&mut self) {
-        for block in self.slots.iter_mut().step_by(self.blocks) {
-            *block = Block::splat(0);
-        }
+        self.counts.fill(0);
         self.spilled.lists.clear();
     }
 
@@ -179,7 +183,7 @@ impl<T: Real> Cells<T> {
     /// what one cell needs, all get. Returns whether it did.
     pub fn grow(&mut self) -> bool {
         let blocks = self.slots.len() * 2;
-        let fits = blocks <= self.most_blocks;
+        let fits = blocks <= self.most_blocks && self.blocks < MOST_BLOCKS;
         if fits {
             self.slots = vec![Block::splat(0); blocks];
             self.blocks *= 2;
@@ -189,7 +193,7 @@ impl<T: Real> Cells<T> {
 
     /// The bytes that the cells hold.
     pub fn bytes(&self) -> usize {
-        self.slots.capacity() * size_of::<Block>()
+        self.slots.capacity() * size_of::<Block>() + self.counts.capacity()
     }
 }
 

@@ -176,8 +176,9 @@ impl<T: Real> Team<T> {
         let mut next = Dealt::new(next, &slots);
         let mut spins = Dealt::new(spins, &slots);
         let mut turned = Dealt::new(turned, &slots);
-        let CutCells { grid, blocks, runs } = store.cells.only().cut(numbers.iter().copied());
-        let mut cells = Dealt { runs: runs.into_iter().map(Some).collect() };
+        let cells = store.cells.only().cut(numbers.iter().copied());
+        let CutCells { grid, blocks, slots: members, counts } = cells;
+        let (mut members, mut counts) = (Dealt::of(members), Dealt::of(counts));
         let mut items: Vec<_> = workers
             .iter_mut()
             .zip(&mut spilled)
@@ -198,7 +199,7 @@ impl<T: Real> Team<T> {
                     cells: Held::one(Members::of(
                         grid,
                         blocks,
-                        cells.deal(held),
+                        (members.deal(held), counts.deal(held)),
                         cell_starts,
                         spilled,
                     )),
@@ -250,7 +251,10 @@ impl<'a, V> Dealt<'a, V> {
     fn new(column: &'a mut [V], ends: &[usize]) -> Self {
         // A column that a scene has no use for is empty.
         let len = column.len();
-        let runs = cut(column, ends.iter().map(|&end| end.min(len)));
+        Self::of(cut(column, ends.iter().map(|&end| end.min(len))))
+    }
+
+    fn of(runs: Vec<&'a mut [V]>) -> Self {
         Self { runs: runs.into_iter().map(Some).collect() }
     }
 

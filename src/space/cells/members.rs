@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use wide::bytemuck::{cast, cast_slice, cast_slice_mut};
+use wide::bytemuck::{cast_slice, cast_slice_mut};
 
 use super::axis::NOWHERE;
 use super::{Block, Grid, STRIDE};
@@ -23,7 +23,8 @@ pub(crate) struct Spilled {
 pub(crate) struct CutCells<'a, T> {
     pub grid: &'a Grid<T>,
     pub blocks: usize,
-    pub runs: Vec<&'a mut [Block]>,
+    pub slots: Vec<&'a mut [Block]>,
+    pub counts: Vec<&'a mut [u8]>,
 }
 
 /// The grid, and the cells that a worker holds with the slots of their bodies.
@@ -32,6 +33,8 @@ pub(crate) struct Members<'a, T> {
     pub grid: &'a Grid<T>,
     pub(super) blocks: usize,
     pub(super) slots: Pieces<'a, Block>,
+    /// How many bodies a cell has; one more than it has room for if it has spilled.
+    pub(super) counts: Pieces<'a, u8>,
     pub(super) spilled: &'a mut Spilled,
     /// Whether it holds all cells.
     pub(super) is_whole: bool,
@@ -42,23 +45,21 @@ impl<'a, T: Real> Members<'a, T> {
     pub fn of(
         grid: &'a Grid<T>,
         blocks: usize,
-        runs: [&'a mut [Block]; 2],
+        (slots, counts): ([&'a mut [Block]; 2], [&'a mut [u8]; 2]),
         starts: [usize; 2],
         spilled: &'a mut Spilled,
     ) -> Self {
-        let slots = Pieces::of(runs, starts.each(|start| start * blocks));
-        Self { grid, blocks, slots, spilled, is_whole: false }
+        let slots = Pieces::of(slots, starts.each(|start| start * blocks));
+        let counts = Pieces::of(counts, starts);
+        Self { grid, blocks, slots, counts, spilled, is_whole: false }
     }
 
     /// Whether the cell of a number is among those held, with all its bodies: those that
     /// are more than it has room for are held by who holds all cells.
     #[inline(always)]
     pub fn holds(&self, number: u32) -> bool {
-        self.is_whole
-            || self
-                .slots
-                .get(number as usize * self.blocks)
-                .is_some_and(|block| count(block) <= self.room())
+        let count = self.counts.get(number as usize);
+        self.is_whole || count.is_some_and(|&count| usize::from(count) <= self.room())
     }
 
     /// The bodies in a cell and in those around it, into `found`, which has
@@ -67,7 +68,7 @@ impl<'a, T: Real> Members<'a, T> {
     #[inline(always)]
     pub fn around(&self, cell: [i32; 3], found: &mut [u32]) -> Option<usize> {
         let [x, y, z] = self.grid.lines(cell);
-        self.read_lines(x.cells, y.cells, z.cells, [x.ends, y.ends, z.ends], found)
+        self.read_lines((x.cells, y.cells, z.cells), [x.ends, y.ends, z.ends], found)
     }
 
     /// The bodies in the layer of cells around `cell` that has come near when
@@ -78,15 +79,15 @@ impl<'a, T: Real> Members<'a, T> {
         let mut ends = lines.each(|line| line.ends);
         let [x, y, z] = lines.each(|line| line.cells);
         if self.grid.are_all_neighbours(axis) {
-            return self.read_lines(x, y, z, ends, found);
+            return self.read_lines((x, y, z), ends, found);
         }
         let ahead = |cells: [u32; 3]| [cells[if up { 2 } else { 0 }]];
         let [layer] = ahead(lines[axis].cells);
         ends[axis] = [layer; 2];
         match axis {
-            0 => self.read_lines(ahead(x), y, z, ends, found),
-            1 => self.read_lines(x, ahead(y), z, ends, found),
-            _ => self.read_lines(x, y, ahead(z), ends, found),
+            0 => self.read_lines((ahead(x), y, z), ends, found),
+            1 => self.read_lines((x, ahead(y), z), ends, found),
+            _ => self.read_lines((x, y, ahead(z)), ends, found),
         }
     }
 
@@ -94,27 +95,49 @@ impl<'a, T: Real> Members<'a, T> {
     /// `ends`.
     fn read_lines<const X: usize, const Y: usize, const Z: usize>(
         &self,
-        xs: [u32; X],
-        ys: [u32; Y],
-        zs: [u32; Z],
+        lines: ([u32; X], [u32; Y], [u32; Z]),
+        ends: [[u32; 2]; 3],
+        found: &mut [u32],
+    ) -> Option<usize> {
+        match self.blocks {
+            1 => self.read_blocks_of::<X, Y, Z, 1>(lines, ends, found),
+            2 => self.read_blocks_of::<X, Y, Z, 2>(lines, ends, found),
+            _ => self.read_with_care([&lines.0, &lines.1, &lines.2], found),
+        }
+    }
+
+    /// As [`read_lines`](Members::read_lines), where a cell has this number of blocks.
+    #[inline(always)]
+    fn read_blocks_of<const X: usize, const Y: usize, const Z: usize, const BLOCKS: usize>(
+        &self,
+        (xs, ys, zs): ([u32; X], [u32; Y], [u32; Z]),
         ends: [[u32; 2]; 3],
         found: &mut [u32],
     ) -> Option<usize> {
         let [least, last] = array::from_fn(|k| ends.iter().map(|ends| ends[k] as usize).sum());
         // The last is beyond all numbers if one of them is nowhere.
-        let run = self.slots.run(least..=last).filter(|_| self.blocks == 1);
-        let Some(run) = run else { return self.read_lines_with_care([&xs, &ys, &zs], found) };
+        let slots = self.slots.run(least * BLOCKS..=last * BLOCKS + (BLOCKS - 1));
+        let (Some(slots), Some(counts)) = (slots, self.counts.run(least..=last)) else {
+            return self.read_with_care([&xs, &ys, &zs], found);
+        };
+        let (slots, _) = slots.as_chunks::<BLOCKS>();
         let room = found.len();
         let mut rest = &mut *found;
         for z in zs {
             for y in ys {
                 let row = (y + z).wrapping_sub(least as u32);
                 for x in xs {
-                    // A whole block is copied faster than a few numbers are counted.
-                    let block = &run[row.wrapping_add(x) as usize];
-                    let count = put(block, rest);
-                    if count >= STRIDE {
-                        return self.read_lines_with_care([&xs, &ys, &zs], found);
+                    let cell = row.wrapping_add(x) as usize;
+                    let count = usize::from(counts[cell]);
+                    if count > BLOCKS * STRIDE {
+                        return self.read_with_care([&xs, &ys, &zs], found);
+                    }
+                    // Whole blocks are copied faster than a few numbers are counted.
+                    let Some(blocks) = rest.as_chunks_mut().0.first_chunk_mut::<BLOCKS>() else {
+                        unreachable!("no room for a cell")
+                    };
+                    for k in 0..BLOCKS {
+                        blocks[k] = slots[cell][k].to_array();
                     }
                     rest = &mut rest[count..];
                 }
@@ -125,7 +148,7 @@ impl<'a, T: Real> Members<'a, T> {
 
     /// Where cells are nowhere, or not held in one run, or have more bodies than a block.
     #[inline(never)]
-    fn read_lines_with_care(&self, [xs, ys, zs]: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
+    fn read_with_care(&self, [xs, ys, zs]: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
         let mut len = 0;
         for &z in zs {
             for &y in ys {
@@ -152,30 +175,19 @@ impl<'a, T: Real> Members<'a, T> {
         self.read(self.grid.number_of(cell), found, len)
     }
 
-    #[inline(always)]
     fn read(&self, number: u32, found: &mut [u32], len: usize) -> usize {
-        if self.blocks > 1 {
-            return self.read_blocks(number, found, len);
+        let slots = self.slots_of(number);
+        let count = self.count(number);
+        let within = count.min(slots.len());
+        // Whole blocks are copied faster than a few numbers are counted.
+        found[len..len + slots.len()].copy_from_slice(slots);
+        if count == within {
+            return len + count;
         }
-        let count = put(&self.slots[number as usize], &mut found[len..]);
-        if count < STRIDE { len + count } else { self.read_blocks(number, found, len) }
-    }
-
-    #[inline(never)]
-    fn read_blocks(&self, number: u32, found: &mut [u32], len: usize) -> usize {
-        let start = number as usize * self.blocks;
-        let slots = cast_slice::<Block, u32>(&self.slots[start..start + self.blocks]);
-        let count = slots[STRIDE - 1] as usize;
-        let within = count.min(self.room());
-        let first = within.min(STRIDE - 1);
-        found[len..len + first].copy_from_slice(&slots[..first]);
-        found[len + first..len + within].copy_from_slice(&slots[STRIDE..STRIDE + within - first]);
-        if count > within
-            && let Some(spilled) = self.spilled.lists.get(&number)
-        {
-            found[len + within..len + count].copy_from_slice(spilled);
-        }
-        len + count
+        let Some(spilled) = self.spilled.lists.get(&number) else { return len + within };
+        let (start, end) = (len + within, len + within + spilled.len());
+        found[start..end].copy_from_slice(spilled);
+        end
     }
 
     /// How many slots a buffer for [`around`](Members::around) must have.
@@ -190,63 +202,72 @@ impl<'a, T: Real> Members<'a, T> {
 
     /// How many bodies the blocks of a cell have room for.
     fn room(&self) -> usize {
-        self.blocks * STRIDE - 1
+        self.blocks * STRIDE
     }
 
     /// How many more bodies the blocks of a cell have room for.
     pub fn room_in(&self, number: u32) -> usize {
-        let start = number as usize * self.blocks;
-        self.room().saturating_sub(count(&self.slots[start]))
+        self.room().saturating_sub(self.count(number))
     }
 
-    /// The slots of a cell's bodies and their count, as they lie in memory.
-    fn slots_in(&mut self, number: u32) -> &mut [u32] {
+    /// How many bodies a cell has; one more than it has room for if it has spilled.
+    #[inline(always)]
+    fn count(&self, number: u32) -> usize {
+        usize::from(self.counts[number as usize])
+    }
+
+    /// The slots of a cell's bodies, as they lie in memory.
+    #[inline(always)]
+    fn slots_of(&self, number: u32) -> &[u32] {
+        let start = number as usize * self.blocks;
+        cast_slice::<Block, u32>(&self.slots[start..start + self.blocks])
+    }
+
+    fn slots_of_mut(&mut self, number: u32) -> &mut [u32] {
         let start = number as usize * self.blocks;
         cast_slice_mut(&mut self.slots[start..start + self.blocks])
     }
 
     /// Puts a body into the cell of a number.
     pub fn insert(&mut self, number: u32, slot: u32) {
-        let room = self.room();
-        let slots = self.slots_in(number);
-        let count = slots[STRIDE - 1] as usize;
-        slots[STRIDE - 1] += 1;
+        let (room, count) = (self.room(), self.count(number));
         if count < room {
-            slots[nth(count)] = slot;
+            self.slots_of_mut(number)[count] = slot;
+            self.counts[number as usize] += 1;
         } else {
-            self.spilled.lists.entry(number).or_default().push(slot);
-            self.spilled.fullest = self.spilled.fullest.max(count + 1);
+            self.counts[number as usize] = room as u8 + 1;
+            let list = self.spilled.lists.entry(number).or_default();
+            list.push(slot);
+            self.spilled.fullest = self.spilled.fullest.max(room + list.len());
         }
     }
 
     /// Whether a body is in the cell of a number.
     pub fn has(&self, number: u32, slot: u32) -> bool {
-        let start = number as usize * self.blocks;
-        let slots = cast_slice::<Block, u32>(&self.slots[start..start + self.blocks]);
-        let count = slots[STRIDE - 1] as usize;
-        (0..count.min(self.room())).any(|k| slots[nth(k)] == slot)
-            || count > self.room()
+        let (room, count) = (self.room(), self.count(number));
+        self.slots_of(number)[..count.min(room)].contains(&slot)
+            || count > room
                 && self.spilled.lists.get(&number).is_some_and(|list| list.contains(&slot))
     }
 
     /// Takes a body out of the cell of a number, if it is there.
     pub fn remove(&mut self, number: u32, slot: u32) {
-        let room = self.room();
-        let slots = self.slots_in(number);
-        let count = slots[STRIDE - 1] as usize;
-        if count > room {
+        let count = self.count(number);
+        if count > self.room() {
             self.remove_spilled(number, slot);
-        } else if let Some(at) = (0..count).find(|&k| slots[nth(k)] == slot) {
-            slots[nth(at)] = slots[nth(count - 1)];
-            slots[STRIDE - 1] -= 1;
+            return;
+        }
+        let slots = &mut self.slots_of_mut(number)[..count];
+        if let Some(at) = slots.iter().position(|&other| other == slot) {
+            slots[at] = slots[count - 1];
+            self.counts[number as usize] -= 1;
         }
     }
 
     /// Takes a body out of a cell with more bodies than its blocks have room for.
     #[cold]
     fn remove_spilled(&mut self, number: u32, slot: u32) {
-        let room = self.room();
-        let within = (0..room).find(|&k| self.slots_in(number)[nth(k)] == slot);
+        let within = self.slots_of(number).iter().position(|&other| other == slot);
         let Some(spilled) = self.spilled.lists.get_mut(&number) else { return };
         let moved = match (within, spilled.iter().position(|&other| other == slot)) {
             (_, Some(at)) => {
@@ -258,32 +279,10 @@ impl<'a, T: Real> Members<'a, T> {
         };
         if spilled.is_empty() {
             self.spilled.lists.remove(&number);
+            self.counts[number as usize] -= 1;
         }
-        let slots = self.slots_in(number);
-        slots[STRIDE - 1] -= 1;
         if let (Some(at), Some(moved)) = (within, moved) {
-            slots[nth(at)] = moved;
+            self.slots_of_mut(number)[at] = moved;
         }
     }
-}
-
-/// Where the body of a number is among a cell's slots.
-fn nth(number: usize) -> usize {
-    number + usize::from(number >= STRIDE - 1)
-}
-
-/// How many bodies a cell has, by its first block.
-#[inline(always)]
-fn count(block: &Block) -> usize {
-    block.to_array()[STRIDE - 1] as usize
-}
-
-/// A block to the start of `found`. Returns how many bodies the cell has.
-#[inline(always)]
-fn put(block: &Block, found: &mut [u32]) -> usize {
-    let Some(room) = found.first_chunk_mut() else { unreachable!("no room for a block") };
-    // Taken by two numbers at once: what is read as one of eight is copied one by one.
-    let [.., last]: [u64; STRIDE / 2] = cast(*block);
-    *room = block.to_array();
-    (last >> u32::BITS) as usize
 }
