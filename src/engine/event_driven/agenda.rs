@@ -1,5 +1,7 @@
 //! Agenda: what is ahead of each body, as far as it is known.
 
+use core::hint::select_unpredictable;
+
 use crate::real::Real;
 
 /// Marks a partner that is a fixed feature, not a body.
@@ -65,9 +67,9 @@ impl<T: Real> Expected<T> {
     #[inline(always)]
     fn select(is_one: bool, one: Self, other: Self) -> Self {
         Self {
-            time: if is_one { one.time } else { other.time },
-            partner: if is_one { one.partner } else { other.partner },
-            stamp: if is_one { one.stamp } else { other.stamp },
+            time: select_unpredictable(is_one, one.time, other.time),
+            partner: select_unpredictable(is_one, one.partner, other.partner),
+            stamp: select_unpredictable(is_one, one.stamp, other.stamp),
         }
     }
 }
@@ -156,7 +158,7 @@ impl<T: Real> Agenda<T> {
         }
         // Without branches: which of them it is cannot be predicted.
         let (is_first, is_second) = (found.time.lt(first.time), found.time.lt(second.time));
-        let dropped = T::select(is_second, second.time, found.time);
+        let dropped = select_unpredictable(is_second, second.time, found.time);
         self.complete_until = self.complete_until.lesser(dropped);
         let second = Expected::select(is_second, found, second);
         self.kept =

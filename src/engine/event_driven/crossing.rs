@@ -1,5 +1,7 @@
 //! Crossing: when a body leaves its cell, and what it finds in the next one.
 
+use core::hint::select_unpredictable;
+
 use super::agenda::Exit;
 use super::features::search_features_of_cell;
 use super::region::Region;
@@ -15,9 +17,12 @@ use crate::real::Real;
 fn leaves<T: Real>([low, high]: [T; 2], position: T, speed: T, acceleration: T) -> (T, bool) {
     let positive = |value: T| value.greater(T::ZERO);
     if acceleration == T::ZERO {
-        let up = speed.gt(T::ZERO);
-        let way = T::select(up, high - position, position - low);
-        return (positive(way) / speed.abs(), up);
+        if speed == T::ZERO {
+            return (T::from_f64(f64::INFINITY), false);
+        }
+        // Without branches: which way it is cannot be predicted. The other end is behind.
+        let ends = [(high - position) / speed, (low - position) / speed];
+        return (positive(ends[0].greater(ends[1])), speed.gt(T::ZERO));
     }
     // The way ahead in the direction of the acceleration, and against it.
     let is_up = acceleration > T::ZERO;
@@ -64,9 +69,8 @@ pub(super) fn plan_crossing<T: Real>(
         let (time, up) = leaves(bounds, position[axis], velocity[axis], gravity[axis]);
         // Without branches: which axis it is cannot be predicted.
         let is_first = time.lt(first);
-        first = T::select(is_first, time, first);
-        exit.axis = if is_first { axis as u8 } else { exit.axis };
-        exit.up = if is_first { up } else { exit.up };
+        first = select_unpredictable(is_first, time, first);
+        exit = select_unpredictable(is_first, Exit { axis: axis as u8, up }, exit);
     }
     agenda.leaves_cell = now + first;
     agenda.exit = exit;

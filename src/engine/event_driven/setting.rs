@@ -3,7 +3,7 @@
 use super::flight::Flight;
 use super::near::{self, Near};
 use super::search::{Search, further, searcher};
-use crate::bodies::{Bodies, PerBody};
+use crate::bodies::{Bodies, PerBody, at};
 use crate::column::Column;
 use crate::engine::parts::{Counted, Counter};
 use crate::engine::plan::{Plan, Turning};
@@ -145,15 +145,27 @@ impl<T: Real> Setting<T> {
     /// Angular velocity of the body of an index, rad per time: `changed` if collisions
     /// change it.
     pub fn spin_of(&self, index: u32, changed: Vec3<T>) -> Vec3<T> {
-        if self.plan.changes_spins { changed } else { self.bodies.spin_of(index as usize) }
+        match &self.bodies.spin {
+            _ if self.plan.changes_spins => changed,
+            // Given up: nothing spins.
+            [x, ..] if x.is_empty() => Vec3::ZERO,
+            columns => at(columns, index as usize),
+        }
     }
 
     /// Gives up what the region keeps now.
     pub fn leave_to_region(&mut self) {
         let nothing = || array::from_fn(|_| Column::new(0, T::ZERO));
         (self.bodies.position, self.bodies.velocity) = (nothing(), nothing());
-        if self.plan.turning == Turning::FromLastContact {
-            (self.bodies.spin, self.bodies.orientation) = (nothing(), None);
+        let is_zero = |spin: &T| *spin == T::ZERO && spin.to_f64().is_sign_positive();
+        match self.plan.turning {
+            Turning::FromLastContact => {
+                (self.bodies.spin, self.bodies.orientation) = (nothing(), None);
+            }
+            Turning::Never if self.bodies.spin.iter().all(|column| column.iter().all(is_zero)) => {
+                self.bodies.spin = nothing();
+            }
+            _ => {}
         }
     }
 

@@ -87,10 +87,8 @@ impl<T: Real> Store<T> {
 
     /// The spin of the body in a slot.
     pub fn spin_of(&self, setting: &Setting<T>, slot: usize) -> Vec3<T> {
-        match self.spins.get(slot) {
-            Some(&spin) => spin,
-            None => setting.bodies.spin_of(self.index[slot] as usize),
-        }
+        let changed = self.spins.get(slot).copied();
+        setting.spin_of(self.index[slot], changed.unwrap_or(Vec3::ZERO))
     }
 
     /// The bytes that it holds.

@@ -1,6 +1,7 @@
 //! Turns: body after body in strict order of time.
 
 use core::cmp::Ordering;
+use core::hint::select_unpredictable;
 
 use super::agenda::Next;
 use super::calendar::Turn;
@@ -82,7 +83,7 @@ pub(super) fn take_turn<T: Real>(
                 }
                 Ok(other) if region.marks[other as usize].stamp == expected.stamp => {
                     let is_first = region.index[slot as usize] < region.index[other as usize];
-                    let pair = if is_first { [slot, other] } else { [other, slot] };
+                    let pair = select_unpredictable(is_first, [slot, other], [other, slot]);
                     let cells = pair.each(|slot| region.agendas[slot as usize].cell);
                     let nearby = [
                         find(setting, region, 0, pair[0], cells[0])?,

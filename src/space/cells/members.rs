@@ -120,7 +120,10 @@ impl<'a, T: Real> Members<'a, T> {
         let (Some(slots), Some(counts)) = (slots, self.counts.run(least..=last)) else {
             return self.read_with_care([&xs, &ys, &zs], found);
         };
+        // Of one length, as the compiler sees: an index into one is one into the other.
         let (slots, _) = slots.as_chunks::<BLOCKS>();
+        let cells = slots.len().min(counts.len());
+        let (slots, counts) = (&slots[..cells], &counts[..cells]);
         let room = found.len();
         let mut rest = &mut *found;
         for z in zs {
