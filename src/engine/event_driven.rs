@@ -36,6 +36,7 @@ mod setting;
 mod snapshot;
 mod store;
 mod territories;
+mod tight;
 mod turns;
 mod undo;
 mod window;

@@ -8,6 +8,7 @@
 
 use core::cmp::Ordering;
 
+use super::tight;
 use crate::real::Real;
 
 /// A body's turn.
@@ -125,7 +126,7 @@ impl<T: Real> Calendar<T> {
             let before = last;
             if self.free == NO_CHUNK {
                 last = self.chunks.len() as u32;
-                self.chunks.push(Chunk { slots: [slot; CHUNK], len: 0, before });
+                tight::push(&mut self.chunks, Chunk { slots: [slot; CHUNK], len: 0, before });
             } else {
                 last = self.free;
                 let chunk = &mut self.chunks[last as usize];

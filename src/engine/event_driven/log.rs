@@ -7,6 +7,7 @@
 use super::agenda::PartnerCode;
 use super::flight::Flight;
 use super::key::{Key, rank};
+use super::tight;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
@@ -104,8 +105,10 @@ impl<T: Real> Log<T> {
     /// Puts a flight down, and the spin if there is one.
     pub fn put(&mut self, past: Past<T>, spin: Option<Vec3<T>>) -> EntryNumber {
         let number = EntryNumber(self.number << DIGITS | self.pasts.len() as u32);
-        self.pasts.push(past);
-        self.spins.extend(spin);
+        tight::push(&mut self.pasts, past);
+        if let Some(spin) = spin {
+            tight::push(&mut self.spins, spin);
+        }
         number
     }
 
