@@ -178,18 +178,26 @@ impl<'a, T: Real> Members<'a, T> {
         self.read(self.grid.number_of(cell), found, len)
     }
 
+    #[inline(always)]
     fn read(&self, number: u32, found: &mut [u32], len: usize) -> usize {
-        let slots = self.slots_of(number);
         let count = self.count(number);
-        let within = count.min(slots.len());
         // Whole blocks are copied faster than a few numbers are counted.
-        found[len..len + slots.len()].copy_from_slice(slots);
-        if count == within {
+        let (rooms, _) = found[len..].as_chunks_mut();
+        let start = number as usize * self.blocks;
+        for k in 0..self.blocks {
+            rooms[k] = self.slots[start + k].to_array();
+        }
+        if count <= self.room() {
             return len + count;
         }
-        let Some(spilled) = self.spilled.lists.get(&number) else { return len + within };
-        let (start, end) = (len + within, len + within + spilled.len());
-        found[start..end].copy_from_slice(spilled);
+        self.read_spilled(number, found, len + self.room())
+    }
+
+    #[cold]
+    fn read_spilled(&self, number: u32, found: &mut [u32], len: usize) -> usize {
+        let Some(spilled) = self.spilled.lists.get(&number) else { return len };
+        let end = len + spilled.len();
+        found[len..end].copy_from_slice(spilled);
         end
     }
 
