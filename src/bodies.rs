@@ -142,6 +142,9 @@ impl<T: Real> PerBody<T> {
 /// assert_eq!(at_pairs(Same(0.5)), [0.5; 4]);
 /// ```
 pub trait Figure<T: Real>: Copy + Send + Sync {
+    /// Whether it is known to be the same for all bodies.
+    const IS_ONE: bool = false;
+
     /// The figures of the bodies at `indices`.
     fn gather<L: Lane<Scalar = T>>(self, indices: &[u32]) -> L;
 
@@ -162,6 +165,8 @@ pub trait Figure<T: Real>: Copy + Send + Sync {
 pub struct Same<T>(pub T);
 
 impl<T: Real> Figure<T> for Same<T> {
+    const IS_ONE: bool = true;
+
     #[inline(always)]
     fn gather<L: Lane<Scalar = T>>(self, _: &[u32]) -> L {
         L::splat(self.0)

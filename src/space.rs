@@ -38,6 +38,7 @@ mod noise;
 mod parts;
 mod periodic;
 pub(crate) mod pieces;
+pub(crate) mod rows;
 mod sizes;
 mod sphere_tree;
 #[cfg(test)]

@@ -202,6 +202,8 @@ impl<L: Lane> Vec3<L> {
     #[inline(always)]
     pub fn gather(columns: [&[L::Scalar]; 3], indices: &[u32]) -> Self {
         let [x, y, z] = columns;
+        // An index that is within one of them is seen to be within all.
+        let (y, z) = (&y[..x.len()], &z[..x.len()]);
         Self::new(L::gather(x, indices), L::gather(y, indices), L::gather(z, indices))
     }
 }

@@ -14,20 +14,21 @@
 mod at_parts;
 mod candidates;
 mod grid;
-mod order;
+mod pair_search;
 mod skin;
 
 use at_parts::{FEW_PARTS, PartSearch};
+use candidates::shell_ends;
 pub use candidates::{Candidates, Chunk, Pair};
-use candidates::{Search, SearchedGrid, shell_ends};
 use grid::Grid;
-use order::CellOrder;
+use pair_search::{Search, SearchedGrid};
 use skin::{best_skin, neighbours};
 
 use crate::bodies::{Columns3, PerBody, Same};
 use crate::lane::Lane;
 use crate::numbers::array::Each;
 use crate::real::Real;
+use crate::space::rows::{Hands, Rows};
 use crate::space::sizes::{class, classes};
 use crate::space::{FixedParts, OpenSpace, PeriodicBox, Space, Tree};
 use crate::vec3::Vec3;
@@ -46,7 +47,7 @@ const LEAST_SWEPT: f64 = 4.0;
 const FEW: usize = 256;
 
 /// Bodies whose cells are found as one piece of work.
-const RANKED: usize = 1 << 14;
+const RANKED: usize = 1 << 11;
 
 /// What a search looks at.
 #[derive(Debug)]
@@ -70,7 +71,8 @@ pub struct BroadPhase<T: Real> {
     reaches: Vec<T>,
     grids: Vec<(Grid<T>, u32)>,
     ranks: Vec<u32>,
-    order: CellOrder,
+    /// The bodies in each cell, by their slots before they are put in order.
+    order: Rows,
     /// The boxes of the fixed parts that have no hierarchy of their own.
     tree: Tree<T>,
     /// Whether there are others.
@@ -97,7 +99,7 @@ impl<T: Real> BroadPhase<T> {
             reaches,
             grids: Vec::new(),
             ranks: Vec::new(),
-            order: CellOrder::default(),
+            order: Rows::default(),
             tree: Tree::new((0..parts.alone()).map(|part| parts.bounds(part))),
             has_more_parts: parts.alone() < parts.count(),
             farthest: T::ZERO,
@@ -169,6 +171,11 @@ impl<T: Real> BroadPhase<T> {
         self.reaches.first().copied().unwrap_or(T::ZERO)
     }
 
+    /// What the rounding of a coordinate may come to in distances, length.
+    fn margin(&self) -> T {
+        self.rounding() * T::whole(16)
+    }
+
     /// Sorts the bodies into cells for a search with this skin. Body `k` of the
     /// order that is returned is the one to be put into slot `k`.
     pub fn sort<P: Sync + ?Sized>(
@@ -178,7 +185,7 @@ impl<T: Real> BroadPhase<T> {
         workers: &Workers,
     ) -> &[u32] {
         let len = surveyed.position[0].len();
-        let (lower, upper) = bounds(surveyed.position);
+        let (lower, upper) = bounds(surveyed.position, workers);
         // A margin for the rounding of coordinates far from the origin.
         let farthest = lower
             .to_array()
@@ -186,11 +193,14 @@ impl<T: Real> BroadPhase<T> {
             .chain(upper.to_array())
             .fold(T::ZERO, |most, c| Lane::abs(c).greater(most));
         self.farthest = farthest;
-        let margin = farthest * T::EPSILON * T::whole(16);
+        let margin = self.margin();
 
         let mut class_counts = vec![0_usize; self.reaches.len()];
-        for k in 0..len {
-            class_counts[class(&self.reaches, surveyed.radius.of(k))] += 1;
+        match &mut class_counts[..] {
+            [all] => *all = len,
+            counts => {
+                (0..len).for_each(|k| counts[class(&self.reaches, surveyed.radius.of(k))] += 1);
+            }
         }
         self.grids.clear();
         let mut first = 0;
@@ -218,9 +228,13 @@ impl<T: Real> BroadPhase<T> {
                 *rank = first + grid.rank(grid.cell(Vec3::new(x[k], y[k], z[k])));
             }
         });
-        self.order.sort(&ranks, first as usize);
+        let sources: Vec<_> = (0..).step_by(RANKED).zip(ranks.chunks(RANKED)).collect();
+        let deal = |&(first, ranks): &(u32, &[u32]), hands: &mut Hands| {
+            (first..).zip(ranks).for_each(|(body, &rank)| hands.deal(rank, body));
+        };
+        self.order.fill(first as usize, &sources, deal, workers);
         self.ranks = ranks;
-        &self.order.bodies
+        &self.order.all
     }
 
     /// Finds the candidates of a skin among bodies that stand in the order of
@@ -247,6 +261,8 @@ impl<T: Real> BroadPhase<T> {
         let part_search = PartSearch {
             position,
             radius: surveyed.radius,
+            greatest_radius: self.greatest_radius(),
+            margin: self.margin(),
             images: &images,
             skin,
             shell_ends: shell_ends(skin),
@@ -282,19 +298,35 @@ impl<T: Real> BroadPhase<T> {
     /// The bytes that the search works in.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(self.ranks.as_slice())
-            + size_of_val(self.order.starts.as_slice())
-            + size_of_val(self.order.bodies.as_slice())
-            + self.tree.bytes()
+        size_of_val(self.ranks.as_slice()) + self.order.bytes() + self.tree.bytes()
     }
 }
 
 /// The corners of the smallest box around all points.
-fn bounds<T: Real>(position: &Columns3<T>) -> (Vec3<T>, Vec3<T>) {
+fn bounds<T: Real>(position: &Columns3<T>, workers: &Workers) -> (Vec3<T>, Vec3<T>) {
+    type Pack<T> = <T as Real>::Pack16;
     let bounds = position.refs().each(|column| {
         let first = column.first().copied().unwrap_or(T::ZERO);
-        column.iter().fold((first, first), |(least, most), &c| (c.lesser(least), c.greater(most)))
+        let mut chunks: Vec<_> = column.chunks(RANKED).map(|chunk| (chunk, [first; 2])).collect();
+        workers.each(&mut chunks, |(chunk, ends)| {
+            let (packs, tail) = Pack::<T>::arrays(chunk);
+            let mut packed = [Pack::<T>::splat(first); 2];
+            for &pack in packs {
+                packed = widened(packed, Pack::<T>::from_array(pack));
+            }
+            let packed = packed.each(Lane::to_array);
+            let each = packed.iter().flat_map(|ends| ends.as_ref()).chain(tail);
+            *ends = each.fold([first; 2], |ends, &c| widened(ends, c));
+        });
+        let ends = chunks.iter().flat_map(|(_, ends)| ends);
+        ends.fold([first; 2], |all, &c| widened(all, c))
     });
     let [x, y, z] = bounds;
-    (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
+    (Vec3::new(x[0], y[0], z[0]), Vec3::new(x[1], y[1], z[1]))
+}
+
+/// The least and the greatest of what they are and another one.
+#[inline(always)]
+fn widened<L: Lane>([least, most]: [L; 2], other: L) -> [L; 2] {
+    [other.lesser(least), other.greater(most)]
 }

@@ -83,15 +83,48 @@ impl Rounds {
         Self { blocked: vec![0; len], round: 0 }
     }
 
+    /// Begins with all contacts found: those that share no body with any other go to `now`,
+    /// the others, in order, to `waiting`, but for those that come first for all their bodies.
+    pub fn begin<T: Real>(
+        &mut self,
+        found: &[Vec<Contact<T>>],
+        waiting: &mut Vec<Contact<T>>,
+        now: &mut Vec<Contact<T>>,
+    ) {
+        if self.round >= u32::MAX - 2 {
+            *self = Self::new(self.blocked.len());
+        }
+        let (once, again) = (self.round + 1, self.round + 2);
+        self.round = again;
+        for contact in found.iter().flatten() {
+            for slot in contact.bodies() {
+                let blocked = &mut self.blocked[slot as usize];
+                *blocked = if *blocked < once { once } else { again };
+            }
+        }
+        waiting.clear();
+        now.clear();
+        for contact in found.iter().flatten() {
+            let is_alone = contact.bodies().all(|slot| self.blocked[slot as usize] == once);
+            if is_alone { now.push(*contact) } else { waiting.push(*contact) }
+        }
+        waiting.sort_unstable_by(Contact::order);
+        self.take_more(waiting, now);
+    }
+
     /// Moves the contacts that come first for all their bodies from `waiting`,
     /// which is in order, to `now`.
     pub fn take<T: Real>(&mut self, waiting: &mut Vec<Contact<T>>, now: &mut Vec<Contact<T>>) {
+        now.clear();
+        self.take_more(waiting, now);
+    }
+
+    fn take_more<T: Real>(&mut self, waiting: &mut Vec<Contact<T>>, now: &mut Vec<Contact<T>>) {
         if self.round == u32::MAX {
             *self = Self::new(self.blocked.len());
         }
         self.round += 1;
         let round = self.round;
-        now.clear();
         waiting.retain(|contact| {
             let a = contact.a as usize;
             let b = if contact.rank.is_pair() { contact.b as usize } else { a };
@@ -122,14 +155,18 @@ mod tests {
     #[test]
     fn rounds_keep_each_bodys_order() {
         let mut rounds = Rounds::new(6);
-        let mut waiting = vec![pair(0, 1, 0.0), pair(1, 2, 0.0), pair(2, 3, 0.0), pair(4, 5, 0.0)];
-        let mut now = Vec::new();
-        let mut taken = Vec::new();
-        while !waiting.is_empty() {
-            rounds.take(&mut waiting, &mut now);
-            taken.push(now.iter().map(|contact| (contact.a, contact.b)).collect::<Vec<_>>());
+        let found =
+            [vec![pair(2, 3, 0.0), pair(4, 5, 0.0)], vec![pair(1, 2, 0.0), pair(0, 1, 0.0)]];
+        let (mut waiting, mut now) = (Vec::new(), Vec::new());
+        for _ in 0..2 {
+            rounds.begin(&found, &mut waiting, &mut now);
+            let mut taken = Vec::new();
+            while !now.is_empty() {
+                taken.push(now.iter().map(|contact| (contact.a, contact.b)).collect::<Vec<_>>());
+                rounds.take(&mut waiting, &mut now);
+            }
+            assert_eq!(taken, [vec![(4, 5), (0, 1)], vec![(1, 2)], vec![(2, 3)]]);
         }
-        assert_eq!(taken, [vec![(0, 1), (4, 5)], vec![(1, 2)], vec![(2, 3)]]);
     }
 
     #[test]

@@ -12,15 +12,12 @@ use crate::real::Real;
 use crate::space::OpenSpace;
 use crate::space::broadphase::{Candidates, Chunk};
 
-/// Finds all contacts at the end of the step, in their order.
+/// Finds all contacts at the end of the step: those that may take effect at once, and in
+/// their order those that wait.
 pub(super) fn find_contacts<T: Real>(setting: &Setting<T>, region: &mut Region<T>) {
     let pending = &mut region.pending;
     find(setting, &region.state, &region.nearby, AtEnd, &mut pending.found);
-    pending.waiting.clear();
-    for found in &pending.found {
-        pending.waiting.extend_from_slice(found);
-    }
-    pending.waiting.sort_unstable_by(Contact::order);
+    pending.rounds.begin(&pending.found, &mut pending.waiting, &mut pending.now);
 }
 
 /// Finds what is in contact among all candidates, chunk by chunk.

@@ -14,7 +14,7 @@ use crate::space::OpenSpace;
 use crate::vec3::Vec3;
 
 /// Bodies flown as one piece of work.
-const FLOWN: usize = 1 << 14;
+const FLOWN: usize = 1 << 11;
 
 /// Flies all bodies through one step and returns how far any has moved at most,
 /// with a margin for the rounding.

@@ -22,6 +22,7 @@ use super::find::{find, search_chunk};
 use super::impact::Outcome;
 use super::lanes::in_lanes;
 use super::narrow::WithinStep;
+use super::neighbourhoods::Neighbour;
 use super::path::Stretch;
 use super::queue::Due;
 use super::record::Record;
@@ -185,15 +186,15 @@ fn look_ahead<T: Real>(
     further: &[Vec3<T>],
 ) {
     let (state, nearby, pending) = (&region.state, &mut region.nearby, &mut region.pending);
-    nearby.neighbourhoods.know(&nearby.candidates, state.index.len());
+    nearby.neighbourhoods.know(&nearby.candidates, state.index.len(), &setting.workers);
     let near = &mut pending.near;
     near.clear();
     for slot in contact.bodies() {
-        for &other in nearby.neighbourhoods.bodies(slot) {
-            near.add_pair([slot, other]);
-        }
-        for &part in nearby.neighbourhoods.parts(slot) {
-            near.add_at_part(part, slot);
+        for neighbour in nearby.neighbourhoods.of(slot) {
+            match neighbour {
+                Neighbour::Body(other) => near.add_pair([slot, other]),
+                Neighbour::Part(part) => near.add_at_part(part, slot),
+            }
         }
     }
     // Whole packs: no body meets itself.

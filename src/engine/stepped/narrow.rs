@@ -28,7 +28,17 @@ pub(super) struct Part<'a, T> {
 
 /// How contacts are found at the end of a step of flight.
 pub(super) trait Detection<T: Real>: Copy + Send + Sync {
-    /// Which of the pairs at slots `a` and `b` touch, and how long ago.
+    /// Which of the pairs at slots `a` and `b` are near enough to be asked about.
+    fn near_pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
+        self,
+        state: &State<T>,
+        radius: R,
+        space: S,
+        a: &[u32],
+        b: &[u32],
+    ) -> L::Mask;
+
+    /// Which of the near pairs at slots `a` and `b` touch, and how long ago.
     fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
         self,
         state: &State<T>,
@@ -55,17 +65,30 @@ pub(super) struct AtEnd;
 
 impl<T: Real> Detection<T> for AtEnd {
     #[inline(always)]
-    fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
+    fn near_pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
         self,
         state: &State<T>,
         radius: R,
         space: S,
         a: &[u32],
         b: &[u32],
-    ) -> (L::Mask, L) {
+    ) -> L::Mask {
         let offset = offset::<L, _, _>(state, space, a, b);
         let reach = radius.gather::<L>(a) + radius.gather::<L>(b);
-        (offset.length_squared().le(reach * reach), L::ZERO)
+        offset.length_squared().le(reach * reach)
+    }
+
+    /// Those near touch.
+    #[inline(always)]
+    fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
+        self,
+        _: &State<T>,
+        _: R,
+        _: S,
+        _: &[u32],
+        _: &[u32],
+    ) -> (L::Mask, L) {
+        (L::ZERO.le(L::ZERO), L::ZERO)
     }
 
     #[inline(always)]
@@ -102,6 +125,25 @@ pub(super) struct WithinStep<'a, T: Real> {
 /// By reference: it is handed on for every list of candidates.
 impl<T: Real> Detection<T> for &WithinStep<'_, T> {
     #[inline(always)]
+    fn near_pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
+        self,
+        state: &State<T>,
+        radius: R,
+        space: S,
+        a: &[u32],
+        b: &[u32],
+    ) -> L::Mask {
+        let way = self.stretch.way();
+        let swept = radius.gather::<L>(a) + radius.gather::<L>(b) + L::splat(way + way);
+        let (offset, back) = self.offset_and_back(state, a, b);
+        let mut is_near = L::ZERO.lt(L::ZERO);
+        self.each_image(space, offset, back, |offset: Vec3<L>| {
+            is_near = is_near | (offset - back).length_squared().le(swept * swept);
+        });
+        is_near
+    }
+
+    #[inline(always)]
     fn pairs<L: Lane<Scalar = T>, R: Figure<T>, S: Space<T>>(
         self,
         state: &State<T>,
@@ -110,24 +152,14 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
         a: &[u32],
         b: &[u32],
     ) -> (L::Mask, L) {
-        let Stretch { until, .. } = self.stretch;
-        let way = self.stretch.way();
+        let until = L::splat(self.stretch.until);
         let reach = radius.gather::<L>(a) + radius.gather::<L>(b);
-        let swept = reach + L::splat(way + way);
-        let offset = gather::<L>(&state.position, a) - gather::<L>(&state.position, b);
-        let relative = || gather::<L>(&state.velocity, a) - gather::<L>(&state.velocity, b);
-        let back = if until > T::ZERO { relative() * L::splat(until) } else { Vec3::ZERO };
-        let turns = space.turns(offset - back);
+        let (offset, back) = self.offset_and_back(state, a, b);
+        let relative = relative::<L, _>(state, a, b);
+        let since = self.since::<L>(a, b);
         let mut touching = L::ZERO.lt(L::ZERO);
         let mut first = L::ZERO;
-        for further in core::iter::once(Vec3::ZERO).chain(self.further.iter().copied()) {
-            let offset = offset - space.shift(turns + Vec3::splat(further));
-            let is_near = (offset - back).length_squared().le(swept * swept);
-            if !is_near.any() {
-                continue;
-            }
-            let relative = relative();
-            let since = self.since::<L>(a, b);
+        self.each_image(space, offset, back, |offset: Vec3<L>| {
             let contact = past_contact(offset, relative, reach);
             // What touches at the beginning of its path, by whatever rounding or an
             // earlier step has left, collides then if it approaches.
@@ -139,10 +171,10 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
                 met = met & gap.gt(reach * reach * L::ratio(1, 1024));
             }
             let ago = L::select(is_before, since, contact.ago);
-            met = met & ago.ge(L::splat(until)) & (!touching | ago.gt(first));
+            met = met & ago.ge(until) & (!touching | ago.gt(first));
             first = L::select(met, ago, first);
             touching = touching | met;
-        }
+        });
         (touching, first)
     }
 
@@ -182,6 +214,38 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
 }
 
 impl<T: Real> WithinStep<'_, T> {
+    /// From the second to the first bodies' centres at the end of the step, and what is to
+    /// be taken from that for the end of the stretch.
+    #[inline(always)]
+    fn offset_and_back<L: Lane<Scalar = T>>(
+        &self,
+        state: &State<T>,
+        a: &[u32],
+        b: &[u32],
+    ) -> (Vec3<L>, Vec3<L>) {
+        let Stretch { until, .. } = self.stretch;
+        let offset = gather::<L>(&state.position, a) - gather::<L>(&state.position, b);
+        let is_cut = until > T::ZERO;
+        let back =
+            if is_cut { relative::<L, _>(state, a, b) * L::splat(until) } else { Vec3::ZERO };
+        (offset, back)
+    }
+
+    /// Calls `visit` with the offsets to all images that can be near.
+    #[inline(always)]
+    fn each_image<L: Lane<Scalar = T>, S: Space<T>>(
+        &self,
+        space: S,
+        offset: Vec3<L>,
+        back: Vec3<L>,
+        mut visit: impl FnMut(Vec3<L>),
+    ) {
+        let turns = space.turns(offset - back);
+        for further in core::iter::once(Vec3::ZERO).chain(self.further.iter().copied()) {
+            visit(offset - space.shift(turns + Vec3::splat(further)));
+        }
+    }
+
     /// Since when the bodies of pairs have had both of their paths.
     #[inline(always)]
     fn since<L: Lane<Scalar = T>>(&self, a: &[u32], b: &[u32]) -> L {
@@ -262,14 +326,57 @@ fn sweep_pairs<L, T, D, R, S>(
     R: Figure<T>,
     S: Space<T>,
 {
+    // Near ones are few: they are put together until they fill a pack.
+    let (mut near, mut count) = ([[0; 2]; 2 * WIDEST], 0);
     for pairs in pairs.chunks_exact(L::WIDTH) {
-        let (mut a, mut b) = ([0; WIDEST], [0; WIDEST]);
-        for (k, pair) in pairs.iter().enumerate() {
-            [a[k], b[k]] = *pair;
+        let [a, b] = columns(pairs);
+        let mut bits = detection.near_pairs::<L, R, S>(state, radius, space, &a, &b).bits();
+        while bits != 0 {
+            near[count] = pairs[bits.trailing_zeros() as usize];
+            count += 1;
+            bits &= bits - 1;
         }
-        let (touching, ago) = detection.pairs::<L, R, S>(state, radius, space, &a, &b);
-        push(touching, ago, found, |k| in_order(state, a[k], b[k]));
+        if count >= L::WIDTH {
+            let (now, later) = near.split_at_mut(L::WIDTH);
+            near_pairs::<L, _, _, _, _>(state, detection, radius, space, now, found);
+            count -= L::WIDTH;
+            now[..count].copy_from_slice(&later[..count]);
+        }
     }
+    for pair in near[..count].chunks_exact(1) {
+        near_pairs::<T, _, _, _, _>(state, detection, radius, space, pair, found);
+    }
+}
+
+/// A pack of near pairs.
+#[inline(never)]
+fn near_pairs<L, T, D, R, S>(
+    state: &State<T>,
+    detection: D,
+    radius: R,
+    space: S,
+    pairs: &[Pair],
+    found: &mut Vec<Contact<T>>,
+) where
+    L: Lane<Scalar = T>,
+    T: Real,
+    D: Detection<T>,
+    R: Figure<T>,
+    S: Space<T>,
+{
+    let [a, b] = columns(pairs);
+    let (touching, ago) = detection.pairs::<L, R, S>(state, radius, space, &a, &b);
+    push(touching, ago, found, |k| in_order(state, a[k], b[k]));
+}
+
+/// The first and the second slots of up to a pack's pairs.
+#[inline(always)]
+fn columns(pairs: &[Pair]) -> [[u32; WIDEST]; 2] {
+    let mut columns = [[0; WIDEST]; 2];
+    for (k, pair) in pairs.iter().enumerate() {
+        [columns[0][k], columns[1][k]] = *pair;
+    }
+    columns
 }
 
 /// The bodies near a feature that touch it, appended to `found`.
@@ -344,6 +451,16 @@ where
     S: Space<T>,
 {
     space.nearest(gather::<L>(&state.position, a) - gather::<L>(&state.position, b))
+}
+
+/// The velocities of the first bodies relative to the second ones.
+#[inline(always)]
+fn relative<L, T>(state: &State<T>, a: &[u32], b: &[u32]) -> Vec3<L>
+where
+    L: Lane<Scalar = T>,
+    T: Real,
+{
+    gather::<L>(&state.velocity, a) - gather::<L>(&state.velocity, b)
 }
 
 /// Three columns' elements at some slots.

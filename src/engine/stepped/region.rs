@@ -43,6 +43,8 @@ pub(super) struct Pending<T: Real> {
     pub waiting: Vec<Contact<T>>,
     /// Those that take effect now, and what they do.
     pub now: Vec<Contact<T>>,
+    /// Those of them with something fixed.
+    pub at_parts: Vec<Contact<T>>,
     pub outcomes: Vec<Outcome<T>>,
     pub rounds: Rounds,
     /// Within the step: those that have not taken effect.
@@ -80,6 +82,7 @@ impl<T: Real> Region<T> {
                 found: Vec::new(),
                 waiting: Vec::new(),
                 now: Vec::new(),
+                at_parts: Vec::new(),
                 outcomes: Vec::new(),
                 rounds: Rounds::new(at_end),
                 queue: Queue::new(),

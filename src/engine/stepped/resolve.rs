@@ -15,12 +15,13 @@ use crate::lane::Lane;
 use crate::real::Real;
 
 /// Contacts worked out as one piece of work.
-const IMPACTS: usize = 1024;
+const IMPACTS: usize = 256;
 
 /// Rounds in a step; contacts beyond wait for the next step.
 const MOST_ROUNDS: usize = 10_000;
 
-/// Lets the waiting contacts take effect, round by round.
+/// Lets the contacts at the end of a step take effect, round by round: those that stand
+/// ready, then the waiting ones.
 pub(super) fn resolve<T: Real>(
     setting: &Setting<T>,
     region: &mut Region<T>,
@@ -29,17 +30,17 @@ pub(super) fn resolve<T: Real>(
     mut record: Option<&mut Record<T>>,
 ) {
     for _ in 0..MOST_ROUNDS {
-        if region.pending.waiting.is_empty() {
+        let (state, pending) = (&mut region.state, &mut region.pending);
+        if pending.now.is_empty() {
             break;
         }
-        let (state, pending) = (&mut region.state, &mut region.pending);
-        pending.rounds.take(&mut pending.waiting, &mut pending.now);
         // Pairs first, then the surroundings, feature by feature: packs of
         // one kind. Contacts of a round share no body, so none waits.
-        pending.now.sort_by_key(|contact| {
-            (!contact.rank.is_pair(), if contact.rank.is_pair() { 0 } else { contact.b })
-        });
-        pending.outcomes.clear();
+        pending.at_parts.clear();
+        let at_parts = pending.now.extract_if(.., |contact| !contact.rank.is_pair());
+        pending.at_parts.extend(at_parts);
+        pending.at_parts.sort_unstable_by_key(|contact| contact.b);
+        pending.now.append(&mut pending.at_parts);
         pending.outcomes.resize(pending.now.len(), Outcome::NONE);
         impulses(setting, state, &pending.now, &mut pending.outcomes);
         for collision in pending.now.iter().zip(&pending.outcomes) {
@@ -47,6 +48,7 @@ pub(super) fn resolve<T: Real>(
                 apply(setting, state, clock, account, collision, record.as_deref_mut());
             }
         }
+        pending.rounds.take(&mut pending.waiting, &mut pending.now);
     }
 }
 

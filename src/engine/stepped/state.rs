@@ -17,7 +17,7 @@ use crate::vec3::Vec3;
 use crate::workers::Workers;
 
 /// Bodies reordered as one piece of work.
-const REORDERED: usize = 1 << 14;
+const REORDERED: usize = 1 << 11;
 
 /// The hot figures in the order of *slots*, which the broad phase renews so
 /// that neighbours in space are neighbours in memory; the cold ones, read only
@@ -50,6 +50,7 @@ pub(super) struct State<T: Real> {
     pub inverse_inertia: PerBody<T>,
     pub orientations: Orientations<T>,
     spare: Column<T>,
+    spare_index: Vec<u32>,
 }
 
 /// What the rounding of sums leaves out.
@@ -89,6 +90,7 @@ impl<T: Real> State<T> {
             mass: bodies.mass,
             inertia: bodies.inertia,
             spare: Column::new(len, T::ZERO),
+            spare_index: Vec::new(),
         };
         if matches!(turning, Turning::FromLastContact | Turning::EachStep) {
             state.own_orientations();
@@ -108,18 +110,12 @@ impl<T: Real> State<T> {
             position.iter_mut().chain(velocity)
         });
         for column in hot.chain(radius).chain(low).filter(|column| !column.is_empty()) {
-            let mut chunks: Vec<_> =
-                self.spare.chunks_mut(REORDERED).zip(order.chunks(REORDERED)).collect();
-            let values = &column[..];
-            workers.each(&mut chunks, |(slots, order)| {
-                for (slot, &from) in slots.iter_mut().zip(*order) {
-                    *slot = values[from as usize];
-                }
-            });
+            permute(column, order, &mut self.spare, workers);
             core::mem::swap(column, &mut self.spare);
         }
-        let index: Vec<u32> = order.iter().map(|&from| self.index[from as usize]).collect();
-        self.index = index;
+        self.spare_index.resize(order.len(), 0);
+        permute(&self.index, order, &mut self.spare_index, workers);
+        core::mem::swap(&mut self.index, &mut self.spare_index);
     }
 
     /// Moves the body in a slot, within its space. Where it has collided its place is
@@ -272,8 +268,18 @@ impl<T: Real> State<T> {
             + self.inverse_inertia.bytes()
             + self.orientations.bytes()
             + self.spare.bytes()
-            + size_of_val(self.index.as_slice())
+            + size_of::<u32>() * (self.index.capacity() + self.spare_index.capacity())
     }
+}
+
+/// Puts the value at `order[k]` to slot `k`.
+fn permute<A: Copy + Send + Sync>(values: &[A], order: &[u32], slots: &mut [A], workers: &Workers) {
+    let mut chunks: Vec<_> = slots.chunks_mut(REORDERED).zip(order.chunks(REORDERED)).collect();
+    workers.each(&mut chunks, |(slots, order)| {
+        for (slot, &from) in slots.iter_mut().zip(*order) {
+            *slot = values[from as usize];
+        }
+    });
 }
 
 fn set_rows<T: Real>(rows: &mut [Column<T>; 9], index: usize, orientation: Mat3<T>) {

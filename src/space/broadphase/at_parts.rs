@@ -20,6 +20,9 @@ pub(super) const FEW_PARTS: usize = 8;
 /// The tree is asked for a group of bodies at once that stand one after the other: so
 /// many at most, in a box that is at most so much wider than that of the first one.
 const GROUP: usize = 8;
+/// Bodies that stand one after the other, in a sphere around which an endless part is
+/// looked for at first.
+const BLOCK: usize = 8;
 const COMPACT: i32 = 12;
 
 /// Bodies near fixed parts, part by part.
@@ -74,6 +77,9 @@ type Near = (u32, u32, u32);
 pub(super) struct PartSearch<'a, T: Real, P: ?Sized> {
     pub position: [&'a [T]; 3],
     pub radius: &'a PerBody<T>,
+    pub greatest_radius: T,
+    /// For the rounding of coordinates, length.
+    pub margin: T,
     /// From a point to itself and to its images in the periodic box: a body may be
     /// near a part where the box puts it when it leaves.
     pub images: &'a [Vec3<T>],
@@ -87,13 +93,12 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
     /// Finds the bodies of a chunk that are near fixed parts.
     pub fn search<L: Lane<Scalar = T>>(&self, bodies: Range<usize>, chunk: &mut Chunk) {
         let are_few = self.tree.len() <= FEW_PARTS;
-        if are_few {
-            for part in 0..self.parts.alone() as u32 {
-                self.sweep::<L>(part, &bodies, chunk);
-            }
-        } else {
-            for &part in self.tree.endless() {
-                self.sweep::<L>(part, &bodies, chunk);
+        let few: Vec<_> = if are_few { (0..self.parts.alone() as u32).collect() } else { vec![] };
+        let swept = if are_few { &few } else { self.tree.endless() };
+        if !swept.is_empty() {
+            let blocks = self.blocks::<L>(&bodies);
+            for &part in swept {
+                self.sweep_blocks::<L>(part, &bodies, &blocks, chunk);
             }
         }
         if are_few && self.parts.alone() == self.parts.count() {
@@ -135,16 +140,63 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
         }
     }
 
-    /// Tests some bodies against one part.
+    /// Spheres around the bodies of one block after the other: their centres and radii, whole
+    /// packs of them.
     #[inline(never)]
+    fn blocks<L: Lane<Scalar = T>>(&self, bodies: &Range<usize>) -> [Vec<T>; 4] {
+        let count = bodies.len().div_ceil(BLOCK).next_multiple_of(L::WIDTH);
+        let mut blocks = [(); 4].each(|()| Vec::with_capacity(count));
+        for first in bodies.clone().step_by(BLOCK) {
+            let last = (first + BLOCK).min(bodies.end) - 1;
+            let center = self.center(usize::midpoint(first, last));
+            // What stands behind the last one may count too.
+            let packs = (first..=last)
+                .step_by(L::WIDTH)
+                .map(|start| (self.centers::<L>(start) - Vec3::splat(center)).length_squared());
+            let farthest = packs.fold(L::ZERO, |most, squared| squared.greater(most)).to_array();
+            let farthest =
+                farthest.as_ref().iter().fold(T::ZERO, |most, squared| squared.greater(most));
+            let reach = Lane::sqrt(farthest) * T::ratio(1025, 1024);
+            let reach = reach + self.greatest_radius + self.margin;
+            for (column, value) in blocks.iter_mut().zip([center.x, center.y, center.z, reach]) {
+                column.push(value);
+            }
+        }
+        blocks.iter_mut().for_each(|column| column.resize(count, T::ZERO));
+        blocks
+    }
+
+    /// Tests the bodies against one part, but for the blocks that are not near it.
+    fn sweep_blocks<L: Lane<Scalar = T>>(
+        &self,
+        part: u32,
+        bodies: &Range<usize>,
+        blocks: &[Vec<T>; 4],
+        chunk: &mut Chunk,
+    ) {
+        let reach = L::splat(self.reach());
+        let count = bodies.len().div_ceil(BLOCK);
+        for block in (0..count).step_by(L::WIDTH) {
+            let [x, y, z, radius] = blocks.refs().each(|column| L::load(&column[block..]));
+            let gap = self.least_gap(part, Vec3::new(x, y, z), radius);
+            // Where it is NaN there is no telling.
+            let mut bits = (!gap.ge(reach)).bits();
+            while bits != 0 {
+                let block = block + bits.trailing_zeros() as usize;
+                if block < count {
+                    let start = bodies.start + block * BLOCK;
+                    self.sweep::<L>(part, &(start..bodies.end.min(start + BLOCK)), chunk);
+                }
+                bits &= bits - 1;
+            }
+        }
+    }
+
+    /// Tests some bodies against one part.
     fn sweep<L: Lane<Scalar = T>>(&self, part: u32, bodies: &Range<usize>, chunk: &mut Chunk) {
-        let Some((first, others)) = self.images.split_first() else { return };
         for start in bodies.clone().step_by(L::WIDTH) {
             let (center, radius) = (self.centers::<L>(start), self.radius.load_tail::<L>(start));
-            let gap = |image: &Vec3<T>| {
-                self.parts.gap(part as usize, center + Vec3::splat(*image), radius)
-            };
-            let gap = others.iter().fold(gap(first), |least, image| gap(image).lesser(least));
+            let gap = self.least_gap(part, center, radius);
             let twice = gap + gap;
             let mut bits = twice.lt(L::splat(self.skin)).bits();
             while bits != 0 {
@@ -156,6 +208,16 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
                 bits &= bits - 1;
             }
         }
+    }
+
+    /// The gap between a part and the nearest images of spheres, length.
+    #[inline(never)]
+    fn least_gap<L: Lane<Scalar = T>>(&self, part: u32, center: Vec3<L>, radius: L) -> L {
+        let gaps = self
+            .images
+            .iter()
+            .map(|image| self.parts.gap(part as usize, center + Vec3::splat(*image), radius));
+        gaps.reduce(|least, gap| gap.lesser(least)).unwrap_or(L::ONE / L::ZERO)
     }
 
     /// The next bodies for which the tree is asked at once, and the box around what

@@ -1,19 +1,14 @@
-//! Candidates: pairs of bodies, and bodies at fixed parts, that may touch; and the
-//! search for the pairs.
+//! Candidates: pairs of bodies, and bodies at fixed parts, that may touch.
 
 use core::ops::Range;
 
 use super::at_parts::AtParts;
-use super::grid::Grid;
-use crate::bodies::Figure;
-use crate::lane::{Lane, Mask};
+use super::pair_search::SearchedGrid;
 use crate::numbers::array;
 use crate::real::Real;
-use crate::space::Space;
-use crate::vec3::Vec3;
 
 /// Bodies searched as one piece of work.
-const CHUNK: usize = 2048;
+const CHUNK: usize = 1024;
 
 /// Into how many shells the skin is cut. A pair need not be tested before its
 /// bodies can have come through the shells between them; 4 spare nearly half of
@@ -27,8 +22,8 @@ pub type Pair = [u32; 2];
 #[derive(Debug, Default)]
 pub struct Chunk {
     /// The grid that was searched, and its cells, by rank.
-    grid: usize,
-    cells: Range<u32>,
+    pub(super) grid: usize,
+    pub(super) cells: Range<u32>,
     /// The slots of the bodies in these cells.
     pub(super) bodies: Range<usize>,
     /// Pairs whose surfaces were nearer than the skin, by the shell that their
@@ -139,23 +134,6 @@ impl Candidates {
     }
 }
 
-/// A grid and the rank of its first cell among all grids' cells.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SearchedGrid<T> {
-    pub grid: Grid<T>,
-    pub first: u32,
-}
-
-/// A search in progress: bodies in the order of their cells.
-pub(super) struct Search<'a, T> {
-    pub position: [&'a [T]; 3],
-    pub skin: T,
-    pub shell_ends: [T; SHELLS - 1],
-    pub starts: &'a [u32],
-    /// Coarsest first; the bodies of each stand behind those of the one before.
-    pub grids: &'a [SearchedGrid<T>],
-}
-
 /// The greatest gaps of all shells of a skin but the last, lengths.
 pub(super) fn shell_ends<T: Real>(skin: T) -> [T; SHELLS - 1] {
     let shell = skin / T::whole(SHELLS as i32);
@@ -166,137 +144,4 @@ pub(super) fn shell_ends<T: Real>(skin: T) -> [T; SHELLS - 1] {
 #[inline(always)]
 pub(super) fn shell<T: Real>(ends: &[T; SHELLS - 1], gap: T) -> usize {
     ends.iter().filter(|&&end| gap >= end).count()
-}
-
-/// The runs of slots around a cell: its own, and two of nine rows at most.
-#[derive(Default)]
-struct NearSlots {
-    all: [Range<u32>; 19],
-    count: usize,
-}
-
-impl NearSlots {
-    #[inline(always)]
-    fn push(&mut self, run: Range<u32>) {
-        if !run.is_empty() {
-            self.all[self.count] = run;
-            self.count += 1;
-        }
-    }
-
-    #[inline(always)]
-    fn runs(&self) -> &[Range<u32>] {
-        &self.all[..self.count]
-    }
-}
-
-impl<T: Real> Search<'_, T> {
-    /// Finds the pairs of the bodies in the chunk's cells: with bodies of the
-    /// same grid at later slots, and with bodies of the coarser grids.
-    pub fn pairs<L, R, S>(&self, radius: R, space: S, chunk: &mut Chunk)
-    where
-        L: Lane<Scalar = T>,
-        R: Figure<T>,
-        S: Space<T>,
-    {
-        let figures = (radius, space);
-        let searched = &self.grids[chunk.grid];
-        let mut slots = NearSlots::default();
-        for rank in chunk.cells.clone() {
-            let bodies = self.slots(searched, rank..rank + 1);
-            if bodies.is_empty() {
-                continue;
-            }
-            // The cell itself, then those of its neighbours that stand later.
-            slots.count = 0;
-            slots.push(bodies.clone());
-            searched.grid.for_each_later_run(rank, |run| slots.push(self.slots(searched, run)));
-            for body in bodies {
-                let point = self.point(body as usize);
-                for run in slots.runs() {
-                    let start = run.start.max(body + 1);
-                    self.test::<L, _, _>(figures, body, point, start..run.end, &mut chunk.pairs);
-                }
-                for coarser in &self.grids[..chunk.grid] {
-                    let cell = coarser.grid.cell(point);
-                    coarser.grid.for_each_neighbour_row(cell, |_, runs| {
-                        for run in runs {
-                            let run = self.slots(coarser, run);
-                            self.test::<L, _, _>(figures, body, point, run, &mut chunk.pairs);
-                        }
-                    });
-                }
-            }
-        }
-    }
-
-    /// The slots of the bodies in a run of cells.
-    #[inline(always)]
-    fn slots(&self, searched: &SearchedGrid<T>, run: Range<u32>) -> Range<u32> {
-        if run.is_empty() {
-            return 0..0;
-        }
-        let start = self.starts[(searched.first + run.start) as usize];
-        start..self.starts[(searched.first + run.end) as usize]
-    }
-
-    #[inline(always)]
-    fn point(&self, body: usize) -> Vec3<T> {
-        Vec3::new(self.position[0][body], self.position[1][body], self.position[2][body])
-    }
-
-    /// The centres of the bodies from a slot on, zeros past the end.
-    #[inline(always)]
-    fn points<L: Lane<Scalar = T>>(&self, start: usize) -> Vec3<L> {
-        // The columns are padded, but a run may start at any slot.
-        let [x, y, z] = self.position;
-        if start + L::WIDTH <= x.len() {
-            Vec3::new(L::load(&x[start..]), L::load(&y[start..]), L::load(&z[start..]))
-        } else {
-            let tail = |column: &[T]| L::load_tail(&column[start..], T::ZERO);
-            Vec3::new(tail(x), tail(y), tail(z))
-        }
-    }
-
-    /// Tests one body against the bodies of a run of slots.
-    #[inline(always)]
-    fn test<L, R, S>(
-        &self,
-        (radius, space): (R, S),
-        body: u32,
-        point: Vec3<T>,
-        run: Range<u32>,
-        pairs: &mut [Vec<Pair>; SHELLS],
-    ) where
-        L: Lane<Scalar = T>,
-        R: Figure<T>,
-        S: Space<T>,
-    {
-        let own_radius = L::splat(radius.load::<T>(body as usize));
-        let skin = L::splat(self.skin);
-        let point = Vec3::<L>::splat(point);
-        let mut start = run.start as usize;
-        let end = run.end as usize;
-        while start < end {
-            let other = self.points(start);
-            let contact = own_radius + radius.load_tail::<L>(start);
-            let reach = contact + skin;
-            let distance_squared = space.nearest(point - other).length_squared();
-            let mut near = distance_squared.lt(reach * reach).bits();
-            if end - start < L::WIDTH {
-                near &= (1 << (end - start)) - 1;
-            }
-            if near != 0 {
-                let gap = (distance_squared.sqrt() - contact).to_array();
-                while near != 0 {
-                    let k = near.trailing_zeros();
-                    let gap = gap.as_ref()[k as usize];
-                    let shell = shell(&self.shell_ends, gap);
-                    pairs[shell].push([body, start as u32 + k]);
-                    near &= near - 1;
-                }
-            }
-            start += L::WIDTH;
-        }
-    }
 }

@@ -26,12 +26,13 @@ pub(super) type Runs = [Range<u32>; 2];
 
 impl<T: Real> Grid<T> {
     /// A grid over the points between `lower` and `upper` with cells of at
-    /// least `side`, and no more than `most` of them.
+    /// least `side`, and no more than `most` of them. Unless there would be more, those at
+    /// its faces are empty, so that all others have their neighbours beside them.
     pub fn open(lower: Vec3<T>, upper: Vec3<T>, side: T, most: usize) -> Self {
-        let cells = few((upper - lower).to_array().each(|length| along(length, side) + 1), most);
+        let cells = few((upper - lower).to_array().each(|length| along(length, side) + 3), most);
         let per_length = T::ONE / side;
         Self {
-            origin: lower,
+            origin: lower - Vec3::new(side, side, side),
             cells_per_length: Vec3::new(per_length, per_length, per_length),
             cells: cells.each(|n| n as u32),
         }
@@ -93,20 +94,44 @@ impl<T: Real> Grid<T> {
         [rank % self.cells[0], row % self.cells[1], row / self.cells[1]]
     }
 
-    /// Calls `visit` with the runs of the neighbours that have greater ranks
-    /// than the cell's own, each cell once.
+    /// The indices of the cell so many ranks after one in the same row, or the first one of
+    /// the next row.
     #[inline(always)]
-    pub fn for_each_later_run(&self, rank: u32, mut visit: impl FnMut(Range<u32>)) {
-        let cell = self.cell_of_rank(rank);
+    pub fn cell_after(&self, [x, y, z]: [u32; 3], cells: u32) -> [u32; 3] {
+        match [x + cells < self.cells[0], y + 1 < self.cells[1]] {
+            [true, _] => [x + cells, y, z],
+            [false, true] => [0, y + 1, z],
+            [false, false] => [0, 0, z + 1],
+        }
+    }
+
+    /// How many cells from this one on in its row have all their neighbours beside them in
+    /// memory; 0 if it has not.
+    #[inline(always)]
+    pub fn inner_cells_from(&self, cell: [u32; 3]) -> u32 {
         let is_inner = (0..3).all(|k| cell[k] > 0 && cell[k] + 1 < self.cells[k]);
-        if is_inner {
+        if is_inner { self.cells[0] - 1 - cell[0] } else { 0 }
+    }
+
+    /// Calls `visit` with runs of some cells from `cell` on, at first, and those of their
+    /// neighbours that have greater ranks, each cell once. More than one are inner cells.
+    #[inline(always)]
+    pub fn for_each_run_from(
+        &self,
+        ranks: Range<u32>,
+        cell: [u32; 3],
+        mut visit: impl FnMut(Range<u32>),
+    ) {
+        if self.inner_cells_from(cell) > 0 {
             let (row, layer) = (self.cells[0], self.cells[0] * self.cells[1]);
-            visit(rank + 1..rank + 2);
-            for middle in [rank + row, rank + layer - row, rank + layer, rank + layer + row] {
-                visit(middle - 1..middle + 2);
+            visit(ranks.start..ranks.end + 1);
+            for ahead in [row, layer - row, layer, layer + row] {
+                visit(ranks.start + ahead - 1..ranks.end + ahead + 1);
             }
             return;
         }
+        let rank = ranks.start;
+        visit(ranks);
         let own = rank - cell[0];
         self.for_each_neighbour_row(cell, |row, runs| {
             if row >= own {
@@ -202,18 +227,26 @@ mod tests {
     }
 
     #[test]
-    fn later_runs_are_the_neighbours_with_greater_ranks() {
+    fn runs_from_a_cell_are_itself_and_the_neighbours_with_greater_ranks() {
         for cells in [[1, 1, 1], [2, 1, 3], [3, 3, 3], [5, 4, 6]] {
             let grid =
                 Grid { origin: Vec3::ZERO, cells_per_length: Vec3::new(1.0, 1.0, 1.0), cells };
+            let mut cell = [0; 3];
             for rank in 0..grid.len() as u32 {
-                let mut later = Vec::new();
-                grid.for_each_later_run(rank, |run| later.extend(run));
-                let mut expected = neighbour_cells(&grid, grid.cell_of_rank(rank));
-                expected.retain(|&other| other > rank);
-                later.sort_unstable();
-                expected.sort_unstable();
-                assert_eq!(later, expected, "around {rank} of {cells:?}");
+                assert_eq!(cell, grid.cell_of_rank(rank));
+                for count in 1..=grid.inner_cells_from(cell).max(1) {
+                    let mut from = Vec::new();
+                    grid.for_each_run_from(rank..rank + count, cell, |run| from.extend(run));
+                    assert_eq!(from[0], rank);
+                    let around = |rank| neighbour_cells(&grid, grid.cell_of_rank(rank));
+                    let mut expected: Vec<_> = (rank..rank + count).flat_map(around).collect();
+                    expected.retain(|&other| other >= rank);
+                    from.sort_unstable();
+                    expected.sort_unstable();
+                    expected.dedup();
+                    assert_eq!(from, expected, "around {count} from {rank} of {cells:?}");
+                }
+                cell = grid.cell_after(cell, 1);
             }
         }
     }
