@@ -191,6 +191,12 @@ impl<T: Real> Cells<T> {
         fits
     }
 
+    /// Lets each of the empty cells have room for a number of bodies, unless that takes too
+    /// much memory.
+    pub fn have_room(&mut self, bodies: usize) {
+        while self.blocks * STRIDE < bodies && self.grow() {}
+    }
+
     /// The bytes that the cells hold.
     pub fn bytes(&self) -> usize {
         self.slots.capacity() * size_of::<Block>() + self.counts.capacity()

@@ -31,6 +31,9 @@ const FAST: f64 = 8.0;
 /// Turns for which a span of the calendar is made.
 const TOGETHER: f64 = 24.0;
 
+/// Bodies that a cell has room for where a window keeps those that have left it.
+const ROOM_IN_WINDOWS: usize = 8;
+
 /// Turns for each body in the first period, before any were counted.
 const TURNS: f64 = 64.0;
 
@@ -94,6 +97,11 @@ pub(super) fn place<T: Real>(
         store.coarse.extend(store.records.iter().map(coarse));
     }
     if setting.plan.has_pairs {
+        // In a window bodies stay in the cells that they have left; a worker leaves a body
+        // that finds no room to another phase.
+        if clock.window.is_some() {
+            store.cells.only().have_room(ROOM_IN_WINDOWS);
+        }
         loop {
             store.cells.clear();
             let mut region = store.whole(team.first(), None);
