@@ -184,8 +184,8 @@ impl<'a, T: Real> Members<'a, T> {
         // Whole blocks are copied faster than a few numbers are counted.
         let (rooms, _) = found[len..].as_chunks_mut();
         let start = number as usize * self.blocks;
-        for k in 0..self.blocks {
-            rooms[k] = self.slots[start + k].to_array();
+        for (k, room) in rooms[..self.blocks].iter_mut().enumerate() {
+            *room = self.slots[start + k].to_array();
         }
         if count <= self.room() {
             return len + count;
