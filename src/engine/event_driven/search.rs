@@ -250,8 +250,6 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
         let own = region.records[slot as usize].flight();
         let (flight, gravity) = (Flight::<L>::splat(&own), Vec3::<L>::splat(setting.gravity));
         let (at, further) = (L::splat(now), Vec3::<L>::splat(image));
-        let own_code = PartnerCode::body(region.index[slot as usize]);
-        let last = region.marks[slot as usize].last;
         let is_unscreened = has_pasts && !region.screening.is_useful;
         let mut start = 0;
         while start < whole {
@@ -270,25 +268,39 @@ impl<T: Real, S: Space<T>, R: Space<T::Coarse>> Found<'_, T, S, R> {
             }
             while let Some((k, time)) = region.worker.meetings.take() {
                 let other = region.worker.found[list][start + k];
-                if last == PartnerCode::body(region.index[other as usize])
-                    && region.marks[other as usize].last == own_code
-                {
-                    // Rounding may tell that two bodies that have just met
-                    // approach again. Through the other side of a periodic
-                    // box they may well meet.
-                    let other = region.records[other as usize].flight();
+                let is_touching = |region: &Region<'_, T>| {
+                    let flight = region.records[other as usize].flight();
                     let gravity = setting.gravity;
-                    let met = meeting::<T, F, S, STARTS>(&own, &other, gravity, space, image, now);
-                    if met.is_touching() {
-                        continue;
-                    }
-                }
-                let stamp = region.marks[other as usize].stamp;
-                let partner = PartnerCode::body(other);
-                keep(region, slot, Expected { time, partner, stamp });
+                    meeting::<T, F, S, STARTS>(&own, &flight, gravity, space, image, now)
+                        .is_touching()
+                };
+                self.expect(region, other, time, is_touching);
             }
             start = end;
         }
+    }
+
+    /// Expects a contact with the body in another slot.
+    #[inline(always)]
+    fn expect(
+        &self,
+        region: &mut Region<'_, T>,
+        other: u32,
+        time: T,
+        is_touching: impl FnOnce(&Region<'_, T>) -> bool,
+    ) {
+        let has_met_last = |one: u32, another: u32| {
+            let code = PartnerCode::body(region.index[another as usize]);
+            region.marks[one as usize].last == code
+        };
+        // Rounding may tell that two bodies that have just met approach again. Through the
+        // other side of a periodic box they may well meet.
+        if has_met_last(self.slot, other) && has_met_last(other, self.slot) && is_touching(region) {
+            return;
+        }
+        let stamp = region.marks[other as usize].stamp;
+        let partner = PartnerCode::body(other);
+        keep(region, self.slot, Expected { time, partner, stamp });
     }
 
     /// Looks for contacts with the flights that others have ended since now in this
