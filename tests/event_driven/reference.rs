@@ -223,11 +223,14 @@ impl<'a, T: Real> Reference<'a, T> {
             let approach = offset.dot(relative);
             let discriminant = relative.length_squared() * (reach * reach)
                 - offset.cross(relative).length_squared();
-            let meets = approach < T::ZERO && discriminant > T::ZERO;
             let excess = offset.length_squared() - reach * reach;
+            // In contact and approaching, rounding alone can take the discriminant to 0.
+            let is_deep = discriminant > T::ZERO;
+            let meets = approach < T::ZERO && (is_deep || excess <= T::ZERO);
             // Two that have just met do not meet again, whatever rounding says.
             let is_over = have_met && excess < reach * reach * T::ratio(1, 1024);
-            let wait = excess.greater(T::ZERO) / (discriminant.sqrt() - approach);
+            let root = discriminant.greater(T::ZERO).sqrt();
+            let wait = excess.greater(T::ZERO) / (root - approach);
             (meets && !is_over).then_some(from + wait)
         });
         times.reduce(T::lesser)
