@@ -52,6 +52,17 @@ pub trait Mask:
     fn bits(self) -> u32;
 }
 
+/// The numbers of the [bits](Mask::bits) that are set, the least first.
+#[inline(always)]
+pub(crate) fn ones(bits: impl Into<u64>) -> impl Iterator<Item = usize> {
+    let mut bits = bits.into();
+    core::iter::from_fn(move || {
+        let first = bits.trailing_zeros();
+        bits &= bits.wrapping_sub(1);
+        (first < u64::BITS).then_some(first as usize)
+    })
+}
+
 /// `WIDTH` reals of type [`Lane::Scalar`], operated on together.
 ///
 /// Comparisons are false where an operand is NaN, as they are for the

@@ -8,7 +8,7 @@ use crate::column::Column;
 use crate::contact::{Laws, Party, collide, one_material};
 use crate::engine::Partner;
 use crate::engine::event::Struck;
-use crate::lane::{Lane, Mask};
+use crate::lane::{Lane, Mask, ones};
 use crate::mat3::Mat3;
 use crate::motion::rotation::turned;
 use crate::numbers::array::Each;
@@ -83,16 +83,13 @@ pub(super) fn take_effect<L: Lane<Scalar = T>, T: Real, W: Laws<T>>(
     };
     // What has collided overlaps for some steps, and goes apart.
     let collided = met.touching & relative.dot(met.offset).lt(L::ZERO);
-    let mut bits = collided.bits();
     let kind = Kind { setting, laws };
-    if bits.count_ones() > FEW {
+    if collided.bits().count_ones() > FEW {
         kind.collide::<L>(moving, 0, &Meeting { touching: collided, ..*met }, events);
         return;
     }
-    while bits != 0 {
-        let lane = bits.trailing_zeros() as usize;
+    for lane in ones(collided.bits()) {
         kind.collide::<T>(moving, lane, &met.in_lane(lane), events.as_deref_mut());
-        bits &= bits - 1;
     }
 }
 
@@ -127,15 +124,12 @@ impl<T: Real, W: Laws<T>> Kind<'_, T, W> {
         if let With::Body(other) = met.with {
             self.give(moving, other, lane, touching, &b, before[1]);
         }
-        let mut bits = touching.bits();
-        while bits != 0 {
-            let k = bits.trailing_zeros() as usize;
+        for k in ones(touching.bits()) {
             let collisions = &mut moving.seats[lane + k].collisions;
             match met.with {
                 With::Body(_) => collisions.pairs += 1,
                 With::Feature(_) => collisions.surroundings += 1,
             }
-            bits &= bits - 1;
         }
         if let Some(events) = events {
             let impulses = [impulse.normal, impulse.tangential];

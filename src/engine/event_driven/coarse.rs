@@ -8,8 +8,8 @@
 //! no bit of any contact time depends on this.
 
 use super::flight::{Flight, Record};
-use super::meeting::{TOGETHER, meeting, ones};
-use crate::lane::{Lane, Mask};
+use super::meeting::{TOGETHER, meeting};
+use crate::lane::{Lane, Mask, ones};
 use crate::motion::integrator::FlightStep;
 use crate::real::Real;
 use crate::space::pieces::Pieces;

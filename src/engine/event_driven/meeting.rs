@@ -111,13 +111,3 @@ impl<T: Real> Meetings<T> {
         Some((number, self.times[number]))
     }
 }
-
-/// The numbers of the bits that are set, the least first.
-#[inline(always)]
-pub(super) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
-    core::iter::from_fn(move || {
-        let first = bits.trailing_zeros() as usize;
-        bits &= bits.wrapping_sub(1);
-        (first < 64).then_some(first)
-    })
-}

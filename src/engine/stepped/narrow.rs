@@ -6,7 +6,7 @@ use super::state::State;
 use super::struck::Struck;
 use crate::bodies::{Figure, at};
 use crate::contact::past_contact;
-use crate::lane::{Lane, Mask};
+use crate::lane::{Lane, Mask, ones};
 use crate::motion::flight::Wrap;
 use crate::real::Real;
 use crate::space::broadphase::Pair;
@@ -330,11 +330,10 @@ fn sweep_pairs<L, T, D, R, S>(
     let (mut near, mut count) = ([[0; 2]; 2 * WIDEST], 0);
     for pairs in pairs.chunks_exact(L::WIDTH) {
         let [a, b] = columns(pairs);
-        let mut bits = detection.near_pairs::<L, R, S>(state, radius, space, &a, &b).bits();
-        while bits != 0 {
-            near[count] = pairs[bits.trailing_zeros() as usize];
+        let is_near = detection.near_pairs::<L, R, S>(state, radius, space, &a, &b);
+        for k in ones(is_near.bits()) {
+            near[count] = pairs[k];
             count += 1;
-            bits &= bits - 1;
         }
         if count >= L::WIDTH {
             let (now, later) = near.split_at_mut(L::WIDTH);
@@ -433,12 +432,9 @@ fn push<L: Lane>(
     found: &mut Vec<Contact<L::Scalar>>,
     contact: impl Fn(usize) -> (u32, u32, Rank),
 ) {
-    let mut bits = touching.bits();
-    while bits != 0 {
-        let k = bits.trailing_zeros() as usize;
+    for k in ones(touching.bits()) {
         let (a, b, rank) = contact(k);
         found.push(Contact { rank, a, b, ago: ago.to_array().as_ref()[k] });
-        bits &= bits - 1;
     }
 }
 

@@ -7,7 +7,7 @@ use core::ops::Range;
 
 use super::candidates::{Chunk, SHELLS, shell};
 use crate::bodies::{Figure, PerBody};
-use crate::lane::{Lane, Mask};
+use crate::lane::{Lane, Mask, ones};
 use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::{Bounds, FixedParts, Tree, joined};
@@ -180,14 +180,11 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             let [x, y, z, radius] = blocks.refs().each(|column| L::load(&column[block..]));
             let gap = self.least_gap(part, Vec3::new(x, y, z), radius);
             // Where it is NaN there is no telling.
-            let mut bits = (!gap.ge(reach)).bits();
-            while bits != 0 {
-                let block = block + bits.trailing_zeros() as usize;
+            for block in ones((!gap.ge(reach)).bits()).map(|k| block + k) {
                 if block < count {
                     let start = bodies.start + block * BLOCK;
                     self.sweep::<L>(part, &(start..bodies.end.min(start + BLOCK)), chunk);
                 }
-                bits &= bits - 1;
             }
         }
     }
@@ -198,14 +195,11 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             let (center, radius) = (self.centers::<L>(start), self.radius.load_tail::<L>(start));
             let gap = self.least_gap(part, center, radius);
             let twice = gap + gap;
-            let mut bits = twice.lt(L::splat(self.skin)).bits();
-            while bits != 0 {
-                let k = bits.trailing_zeros() as usize;
+            for k in ones(twice.lt(L::splat(self.skin)).bits()) {
                 if start + k < bodies.end {
                     let shell = shell(&self.shell_ends, twice.to_array().as_ref()[k]);
                     chunk.at_parts[shell].push(part, (start + k) as u32);
                 }
-                bits &= bits - 1;
             }
         }
     }
@@ -256,13 +250,11 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
             );
             let reach = self.radius.load_tail::<L>(start) + L::splat(self.reach());
             let reach = reach * L::ratio(1025, 1024);
-            let mut bits = offset.length_squared().le(reach * reach).bits();
-            while bits != 0 {
-                let body = start as u32 + bits.trailing_zeros();
-                if (body as usize) < bodies.end {
-                    visit(body);
+            let is_near = offset.length_squared().le(reach * reach);
+            for body in ones(is_near.bits()).map(|k| start + k) {
+                if body < bodies.end {
+                    visit(body as u32);
                 }
-                bits &= bits - 1;
             }
         }
     }

@@ -94,8 +94,8 @@ impl<T: Real> Grid<T> {
         [rank % self.cells[0], row % self.cells[1], row / self.cells[1]]
     }
 
-    /// The indices of the cell so many ranks after one in the same row, or the first one of
-    /// the next row.
+    /// The indices of the cell that stands a number of cells after one in its row, or of the
+    /// first one of the next row.
     #[inline(always)]
     pub fn cell_after(&self, [x, y, z]: [u32; 3], cells: u32) -> [u32; 3] {
         match [x + cells < self.cells[0], y + 1 < self.cells[1]] {
