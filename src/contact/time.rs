@@ -48,6 +48,7 @@ pub struct ContactTime<L: Lane> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactEquation<L> {
     speed_squared: L,
+    distance_squared: L,
     /// `x·V`.
     moving_apart: L,
     /// `s² − x·x`.
@@ -61,19 +62,23 @@ impl<L: Lane> ContactEquation<L> {
     #[inline(always)]
     pub(crate) fn new(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> Self {
         let speed_squared = relative.length_squared();
+        let distance_squared = offset.length_squared();
         let reach_squared = reach * reach;
         Self {
             speed_squared,
+            distance_squared,
             moving_apart: offset.dot(relative),
-            overlap: reach_squared - offset.length_squared(),
+            overlap: reach_squared - distance_squared,
             discriminant: speed_squared * reach_squared - offset.cross(relative).length_squared(),
         }
     }
 
-    /// Whether the spheres would touch if `x·V` were less by `slack`.
+    /// Whether the spheres would touch if `x·V` were less by `slack`, and `V²` greater by
+    /// `stray` across the line of centres. Two at one place never do.
     #[inline(always)]
-    pub(crate) fn may_meet(&self, slack: L) -> L::Mask {
-        self.moving_apart.lt(slack) & self.discriminant.gt(L::ZERO)
+    pub(crate) fn may_meet(&self, slack: L, stray: L) -> L::Mask {
+        let strayed = self.discriminant + stray * self.distance_squared;
+        self.moving_apart.lt(slack) & strayed.gt(L::ZERO)
     }
 
     /// Whether the spheres touch ever.
@@ -120,7 +125,7 @@ impl<L: Lane> ContactEquation<L> {
 /// ```
 #[inline(always)]
 pub fn past_contact<L: Lane>(offset: Vec3<L>, relative: Vec3<L>, reach: L) -> PastContact<L> {
-    let ContactEquation { speed_squared, moving_apart, overlap, discriminant } =
+    let ContactEquation { speed_squared, moving_apart, overlap, discriminant, .. } =
         ContactEquation::new(offset, relative, reach);
     let met = discriminant.gt(L::ZERO) & speed_squared.gt(L::ZERO);
     let root = L::select(met, discriminant, L::ZERO).sqrt();

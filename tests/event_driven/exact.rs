@@ -202,3 +202,27 @@ fn the_same_two_meet_again_through_the_other_side() {
     around::<f32>();
     around::<f64>();
 }
+
+/// Two bodies fly side by side and approach each other by a few units in the last place of
+/// their velocities, which a coarser precision rounds away or turns.
+#[test]
+fn side_by_side() {
+    fn meet<T: Compiled>() {
+        let slow = 16.0 * T::EPSILON.to_f64();
+        for (gap, time) in [(0.0, 0.0), (0.25 * slow, 0.25), (0.5 * slow, 0.5)] {
+            for velocity in [[0.0, 1.0, 0.0], [0.7, -0.3, 0.9], [-0.51, 0.49, 0.02]] {
+                let velocity = velocity.map(|v| T::from_f64(v).to_f64());
+                let [x, y, z] = velocity;
+                let scene = builder::<T>()
+                    .sphere(Sphere::new([0.0; 3]).radius(0.5).velocity([x + slow, y, z]))
+                    .sphere(Sphere::new([1.0 + gap, 0.0, 0.0]).radius(0.5).velocity(velocity))
+                    .sphere(Sphere::new([0.0, 2.0, 2.0]).radius(0.5).velocity([0.0, 2.0, 2.0]));
+                let found = events(&mut world(scene.build().unwrap()), 1.0);
+                assert_eq!(found.len(), 1, "{velocity:?}, gap {gap:e}");
+                assert!((found[0].time - time).abs() < 0.07, "{} for {time}", found[0].time);
+            }
+        }
+    }
+    meet::<f32>();
+    meet::<f64>();
+}

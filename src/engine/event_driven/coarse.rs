@@ -32,6 +32,8 @@ pub(super) struct Screening<C: Real> {
     margin: C,
     /// Up to this `x·V` two bodies may approach each other.
     slack: C,
+    /// What is added to each `V²` for the part of `V` that rounding takes or turns.
+    stray: C,
 }
 
 /// The scales that the rounding errors are measured by.
@@ -57,6 +59,7 @@ impl<C: Real> Screening<C> {
             periodic: periodic.map(PeriodicBox::cast),
             margin: C::ZERO,
             slack: C::ZERO,
+            stray: C::ZERO,
         }
     }
 
@@ -68,6 +71,11 @@ impl<C: Real> Screening<C> {
         let ways = 16.0 * epsilon * (extent + speed * period);
         let products = 16.0 * epsilon * neighbourhood * neighbourhood / reach;
         let margin = ways + products;
+        // Velocities are off by δ = 8 ε of the greatest: a slow pair turns by far, and misses
+        // by `f s` more, `f = 2 δ x / s`. The margin of a radius, `a = 2 margin / s`, makes up
+        // for it where `(1 + a) (V² + stray) ≥ (V + f)²`: for each V if `stray ≥ f² (1 + 1/a)`.
+        let turned = 16.0 * epsilon * speed * neighbourhood / reach;
+        let stray = turned * turned * (1.0 + reach / (2.0 * margin));
         // The products of a meeting are squares of a speed by a length.
         let most = speed * (neighbourhood + speed * period);
         let is_in_range = speed * reach > LEAST_PRODUCT && most < MOST_PRODUCT;
@@ -75,6 +83,7 @@ impl<C: Real> Screening<C> {
         self.is_useful = is_finer && is_in_range && margin < reach / 32.0;
         self.margin = C::from_f64(margin);
         self.slack = C::from_f64(4.0 * speed * margin);
+        self.stray = C::from_f64(stray);
     }
 
     /// A flight in coarse precision.
@@ -122,7 +131,8 @@ impl<C: Real, S: Space<C>> Screen<'_, C, S> {
         let &Self { records, slot, now, space, further } = self;
         let flight = Flight::<L>::splat(&records[slot as usize].flight());
         let (now, further) = (L::splat(now), Vec3::<L>::splat(further));
-        let (gravity, slack) = (Vec3::<L>::splat(screening.gravity), L::splat(screening.slack));
+        let gravity = Vec3::<L>::splat(screening.gravity);
+        let (slack, stray) = (L::splat(screening.slack), L::splat(screening.stray));
         let mut len = 0;
         for together in found.chunks(TOGETHER) {
             // Looked at when all are worked out: which packs have hits cannot be predicted.
@@ -131,7 +141,7 @@ impl<C: Real, S: Space<C>> Screen<'_, C, S> {
                 let others = Flight::<L>::gather(records, pack);
                 let met =
                     meeting::<L, F, S, STARTS>(&flight, &others, gravity, space, further, now);
-                hits |= u64::from(met.may_meet(slack).bits()) << (k * L::WIDTH);
+                hits |= u64::from(met.may_meet(slack, stray).bits()) << (k * L::WIDTH);
                 starts_later |= u64::from(others.since.ge(now).bits()) << (k * L::WIDTH);
             }
             for k in ones(hits) {

@@ -48,11 +48,11 @@ pub(super) fn meeting<L: Lane, F: FlightStep, S: Space<L::Scalar>, const STARTS:
 }
 
 impl<L: Lane> Meeting<L> {
-    /// Whether the two would meet if they approached a little faster: the test
-    /// of a precision whose errors are below the slack.
+    /// Whether the two would meet if their velocities were a little different: see
+    /// [`ContactEquation::may_meet`].
     #[inline(always)]
-    pub fn may_meet(&self, slack: L) -> L::Mask {
-        self.equation.may_meet(slack)
+    pub fn may_meet(&self, slack: L, stray: L) -> L::Mask {
+        self.equation.may_meet(slack, stray)
     }
 
     /// Whether the two meet.
