@@ -29,6 +29,7 @@
 
 pub(crate) mod broadphase;
 pub(crate) mod cells;
+pub(crate) mod curve;
 pub(crate) mod hierarchy;
 pub(crate) mod levels;
 mod near_pairs;

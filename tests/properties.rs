@@ -7,26 +7,29 @@ mod common;
 #[path = "common/properties/mod.rs"]
 mod properties;
 
-use std::fs;
 use std::path::Path;
 
 use carom::scene::builtin_scenes;
-use properties::{Inputs, Outcome, PROPERTIES};
+use properties::{Inputs, Kind, Outcome, PROPERTIES, corpus};
 
 /// Tries a property on `count` inputs, of which at least `least` are to be scenes.
 fn tries(name: &str, count: u64, least: usize) {
-    let is_text = name == "text";
-    let texts = builtin_scenes().iter().map(|scene| scene.text.as_bytes().to_vec());
-    let inputs = Inputs::new(if is_text { texts.collect() } else { Vec::new() }, is_text);
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let kind = Kind::of(name);
+    let given = match kind {
+        Kind::Bytes => Vec::new(),
+        Kind::File => corpus(&package.join("tests/data/meshes")),
+        Kind::Text => builtin_scenes().iter().map(|scene| scene.text.into()).collect(),
+    };
+    let inputs = Inputs::new(given, kind);
     let (_, property) = PROPERTIES.into_iter().find(|(found, _)| *found == name).unwrap();
     let mut outcomes = [0; 3];
     for number in 0..count {
         outcomes[property(&inputs.input(number)) as usize] += 1;
     }
     // What has broken a property before is among the corpus; a package has none.
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(name);
-    for entry in fs::read_dir(folder).into_iter().flatten() {
-        property(&fs::read(entry.unwrap().path()).unwrap());
+    for file in corpus(&package.join("fuzz/corpus").join(name)) {
+        property(&file);
     }
     println!("{name}: refused, ran, stopped: {outcomes:?}");
     assert!(outcomes[Outcome::Ran as usize] >= least, "{outcomes:?}");
@@ -35,6 +38,11 @@ fn tries(name: &str, count: u64, least: usize) {
 #[test]
 fn any_text_is_a_scene_or_an_error() {
     tries("text", 10_000, 100);
+}
+
+#[test]
+fn any_file_of_a_surface_is_a_mesh_or_an_error() {
+    tries("mesh", 20_000, 2_000);
 }
 
 #[test]

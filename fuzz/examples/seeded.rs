@@ -14,7 +14,7 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 use std::{env, fs, panic, process, thread};
 
-use carom_fuzz::properties::{Inputs, PROPERTIES};
+use carom_fuzz::properties::{Inputs, Kind, PROPERTIES, corpus};
 
 /// What an input may take.
 const LONGEST: Duration = Duration::from_secs(20);
@@ -39,7 +39,11 @@ fn main() {
     let (Ok(count), Ok(first)) = (what.parse::<u64>(), first) else { return usage(&names) };
 
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let inputs = Inputs::new(corpus(&folder.join("corpus").join(name)), name == "text");
+    let mut given = corpus(&folder.join("corpus").join(name));
+    if name == "mesh" {
+        given.extend(corpus(&folder.join("../tests/data/meshes")));
+    }
+    let inputs = Inputs::new(given, Kind::of(name));
     keep_what_breaks(folder.join("artifacts").join(name));
     let start = Instant::now();
     let mut outcomes = [0_u64; 3];
@@ -67,14 +71,6 @@ fn usage(names: &[&str]) {
         names.join(", ")
     );
     process::exit(2);
-}
-
-/// The inputs in a folder, in the order of their names.
-fn corpus(folder: &Path) -> Vec<Vec<u8>> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
-    paths.sort();
-    paths.iter().filter_map(|path| fs::read(path).ok()).collect()
 }
 
 /// Leaves an input that panics, or takes too long, in a folder.

@@ -1,12 +1,14 @@
 //! Hierarchy: which of many parts are near a place, in few bytes a part.
 //!
 //! The parts stand in an order in which neighbours in space are neighbours in number
-//! ([`along_curve`]). They are halved by number, down to a few each; so the nodes depend on
+//! ([`along_curve`](super::curve::along_curve)). They are halved by number, down to a few each; so the nodes depend on
 //! how many parts there are and on nothing else, and their boxes are found from the leaves
 //! up: `O(n)`. Nodes lie in one array in the order in which a search comes to them, each
 //! with the number to go on from where it is too far away, so a search needs no stack.
 //!
 //! Boxes are in f32, rounded outward, in every precision.
+
+use rayon::prelude::*;
 
 use super::Bounds;
 use crate::numbers::array::{self, Each};
@@ -41,7 +43,7 @@ pub(crate) struct Hierarchy {
 
 impl Hierarchy {
     /// Over a number of parts, each in its box.
-    pub(crate) fn new<T: Real>(count: u32, bounds: impl Fn(u32) -> Bounds<T>) -> Self {
+    pub(crate) fn new<T: Real>(count: u32, bounds: impl Fn(u32) -> Bounds<T> + Sync) -> Self {
         let mut hierarchy = Self { nodes: Vec::new() };
         if count > 0 {
             hierarchy.divide(0, count);
@@ -66,18 +68,18 @@ impl Hierarchy {
     }
 
     /// Finds the boxes of all nodes, each after those below it.
-    fn fit<T: Real>(&mut self, bounds: impl Fn(u32) -> Bounds<T>) {
+    fn fit<T: Real>(&mut self, bounds: impl Fn(u32) -> Bounds<T> + Sync) {
+        self.nodes.par_iter_mut().for_each(|node| {
+            let boxes = node.leaf().map(|part| outward(bounds(part)));
+            [node.lower, node.upper] = boxes.reduce(joined).unwrap_or_default();
+        });
         for own in (0..self.nodes.len()).rev() {
-            let node = self.nodes[own];
-            let [lower, upper] = if node.parts == 0 {
+            if self.nodes[own].parts == 0 {
                 let first = self.nodes[own + 1];
                 let second = self.nodes[first.next as usize];
-                joined([first.lower, first.upper], [second.lower, second.upper])
-            } else {
-                let boxes = node.leaf().map(|part| outward(bounds(part)));
-                boxes.reduce(joined).unwrap_or_default()
-            };
-            self.nodes[own] = Node { lower, upper, ..node };
+                let both = joined([first.lower, first.upper], [second.lower, second.upper]);
+                [self.nodes[own].lower, self.nodes[own].upper] = both;
+            }
         }
     }
 
@@ -112,42 +114,6 @@ impl Node {
     }
 }
 
-/// The numbers of points in the order of a curve that fills the box around them (Morton
-/// 1966): points near each other come near each other.
-pub(crate) fn along_curve(points: &[[f64; 3]]) -> Vec<u32> {
-    /// Cells along each axis, as many as three times fit into a number.
-    const CELLS: f64 = 2_097_152.0;
-    let mut lower = [f64::INFINITY; 3];
-    let mut upper = [f64::NEG_INFINITY; 3];
-    for point in points {
-        for k in 0..3 {
-            lower[k] = lower[k].min(point[k]);
-            upper[k] = upper[k].max(point[k]);
-        }
-    }
-    // One side for all axes: cells are cubes.
-    let side = (0..3).map(|k| upper[k] - lower[k]).fold(f64::MIN_POSITIVE, f64::max);
-    let key = |point: &[f64; 3]| {
-        let cell = |k: usize| ((point[k] - lower[k]) / side * CELLS).min(CELLS - 1.0) as u64;
-        spread(cell(0)) | spread(cell(1)) << 1 | spread(cell(2)) << 2
-    };
-    let mut keys: Vec<(u64, u32)> = points.iter().map(key).zip(0..).collect();
-    keys.sort_unstable();
-    keys.into_iter().map(|(_, number)| number).collect()
-}
-
-/// The last 21 binary digits of a number, with two zeros between neighbours.
-fn spread(number: u64) -> u64 {
-    let steps = [
-        (32, 0x001F_0000_0000_FFFF),
-        (16, 0x001F_0000_FF00_00FF),
-        (8, 0x100F_00F0_0F00_F00F),
-        (4, 0x10C3_0C30_C30C_30C3),
-        (2, 0x1249_2492_4924_9249),
-    ];
-    steps.into_iter().fold(number, |digits, (shift, mask)| (digits | digits << shift) & mask)
-}
-
 fn joined([a, b]: [[f32; 3]; 2], [c, d]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     [array::from_fn(|k| a[k].min(c[k])), array::from_fn(|k| b[k].max(d[k]))]
 }
@@ -168,6 +134,7 @@ fn below<T: Real>(value: T) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::curve::along_curve;
     use crate::space::noise::noise;
     use crate::space::test_boxes::{cube, touch};
     use crate::vec3::Vec3;

@@ -1,5 +1,12 @@
 //! Heightfield: a surface over a grid, by its heights.
 
+#[cfg(feature = "files")]
+mod picture;
+mod table;
+
+use std::io;
+use std::path::Path;
+
 use super::Feature;
 use super::entry::{FILE, Key, Meaning, ShapeEntry};
 use super::mesh::{Mesh, MeshError};
@@ -18,8 +25,9 @@ use crate::vec3::Vec3;
 /// In a scene file: `shape = "heightfield"` with `origin`, two numbers, or three to add to
 /// all heights; `spacing`, a number, or one each along x and y; `columns`, how many points
 /// there are along x, `rows`, how many along y, and `heights`, row by row; or in place of
-/// these three `file`, the path of a CSV file of heights, a line for each row, from the
-/// folder of the scene file.
+/// these three `file`, from the folder of the scene file: a CSV file of heights, a line for
+/// each row, or a `.png` picture of them from above, whose lower left pixel is the first, with
+/// `range`, the heights of black and white, 0 and 1 by default.
 ///
 /// ```
 /// use carom::surroundings::{Heightfield, Shape};
@@ -82,6 +90,42 @@ impl<T: Real> Heightfield<T> {
         Mesh::new(&vertices, &triangles).map(|mesh| Self { mesh })
     }
 
+    /// From a PNG picture of the heights as one sees them from above: from the place of its
+    /// lower left pixel, the distances of pixels along x and y, and the heights of black and
+    /// of white over that place; lengths. Of 1 to 16 bits, grey or of equal colours, opaque.
+    ///
+    /// ```
+    /// use carom::surroundings::Heightfield;
+    ///
+    /// let mut file = Vec::new();
+    /// let mut picture = png::Encoder::new(&mut file, 2, 2);
+    /// picture.set_color(png::ColorType::Grayscale);
+    /// picture.write_header()?.write_image_data(&[255, 255, 0, 51])?;
+    /// let field = Heightfield::<f64>::from_png(&file, [0.0; 3], [1.0; 2], [0.0, 10.0])?;
+    /// // Low at the lower edge, high at the upper one.
+    /// let heights = field.mesh().vertices().iter().map(|v| (v.x, v.y, v.z));
+    /// let mut heights: Vec<_> = heights.collect();
+    /// heights.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    /// let right = [(0.0, 0.0, 0.0), (0.0, 1.0, 10.0), (1.0, 0.0, 2.0), (1.0, 1.0, 10.0)];
+    /// assert_eq!(heights, right);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If it is no such picture, or has fewer than two columns or rows.
+    #[cfg(feature = "files")]
+    pub fn from_png(
+        bytes: &[u8],
+        origin: [T; 3],
+        spacing: [T; 2],
+        [black, white]: [T; 2],
+    ) -> Result<Self, MeshError> {
+        let (columns, levels) = picture::read(bytes)?;
+        let height = |level| black + T::from_f64(level) * (white - black);
+        let heights: Vec<T> = levels.into_iter().map(height).collect();
+        Self::new(origin, spacing, columns, &heights)
+    }
+
     /// Its triangles.
     #[must_use]
     pub fn mesh(&self) -> &Mesh<T> {
@@ -94,41 +138,37 @@ const SPACING: Key = Key::new("spacing", Meaning::Numbers);
 const COLUMNS: Key = Key::new("columns", Meaning::Count);
 const ROWS: Key = Key::new("rows", Meaning::Count);
 const HEIGHTS: Key = Key::new("heights", Meaning::Numbers);
+const RANGE: Key = Key::new("range", Meaning::Numbers);
 
-/// The heights of a CSV file, row by row, and how many a row has.
-fn table(text: &str) -> Result<(usize, Vec<f64>), MeshError> {
-    let (mut columns, mut heights) = (0, Vec::new());
-    for (line, row) in (1..).zip(text.lines()) {
-        if row.trim().is_empty() {
-            continue;
-        }
-        let before = heights.len();
-        for (column, word) in (1..).zip(row.split(',').map(str::trim)) {
-            match word.parse::<f64>() {
-                Ok(height) if height.is_finite() => heights.push(height),
-                _ => {
-                    let problem =
-                        format!("column {column} is {word:?}, where a finite height belongs");
-                    return Err(MeshError::at_line(line, problem));
-                }
-            }
-        }
-        let found = heights.len() - before;
-        if columns == 0 {
-            columns = found;
-        } else if found != columns {
-            let problem = format!("it has {found} heights, and the rows before have {columns}");
-            return Err(MeshError::at_line(line, problem));
-        }
+/// The heights that a file has.
+fn in_file(
+    path: &Path,
+    origin: [f64; 3],
+    spacing: [f64; 2],
+    range: [f64; 2],
+) -> Result<Heightfield<f64>, MeshError> {
+    let bytes = std::fs::read(path)?;
+    if is_picture(path) {
+        #[cfg(feature = "files")]
+        return Heightfield::from_png(&bytes, origin, spacing, range);
+        #[cfg(not(feature = "files"))]
+        return Err(MeshError::Picture(format!("{range:?} needs the feature `files`")));
     }
-    Ok((columns, heights))
+    let text = String::from_utf8(bytes);
+    let text = text.map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
+    let (columns, heights) = table::read(&text)?;
+    Heightfield::new(origin, spacing, columns, &heights)
+}
+
+fn is_picture(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"))
 }
 
 impl<T: Real> Solid<T> for Heightfield<T> {
     type In<B: Real> = Heightfield<B>;
 
     const NAME: &'static str = "heightfield";
-    const KEYS: &'static [Key] = &[ORIGIN, SPACING, COLUMNS, ROWS, HEIGHTS, FILE];
+    const KEYS: &'static [Key] = &[ORIGIN, SPACING, COLUMNS, ROWS, HEIGHTS, FILE, RANGE];
 
     fn read(entry: &ShapeEntry) -> Result<Heightfield<f64>, Mistake> {
         let origin = match entry.numbers(ORIGIN).unwrap_or(&[0.0; 2]) {
@@ -153,11 +193,24 @@ impl<T: Real> Solid<T> for Heightfield<T> {
                 let wanted = "the file has it; leave out one of them";
                 return Err(Mistake::described(key.name, "there beside a file", wanted));
             }
-            let read = || {
-                let (columns, heights) = table(&std::fs::read_to_string(&path.whole)?)?;
-                Heightfield::new(origin, spacing, columns, &heights)
+            let range = match entry.numbers(RANGE) {
+                None => [0.0, 1.0],
+                Some(_) if !is_picture(&path.whole) => {
+                    let wanted = "only a .png file has grey levels, whose heights it is";
+                    return Err(Mistake::described(RANGE.name, "there", wanted));
+                }
+                Some(&[black, white]) if black.is_finite() && white.is_finite() => [black, white],
+                Some(other) => {
+                    let wanted = "the heights of black and white belong here";
+                    return Err(Mistake::value(RANGE.name, other, wanted));
+                }
             };
-            return read().map_err(|error| path.mistake(FILE, &error));
+            return in_file(&path.whole, origin, spacing, range)
+                .map_err(|error| path.mistake(FILE, &error));
+        }
+        if entry.has(RANGE) {
+            let wanted = "only a .png file has grey levels, whose heights it is";
+            return Err(Mistake::described(RANGE.name, "there without a file", wanted));
         }
         let columns = entry.count(COLUMNS, "how many heights a row has belongs here")?;
         let rows = entry.count(ROWS, "how many rows of heights there are belongs here")?;

@@ -4,7 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use carom::SceneFile;
+use carom::scene::SceneError;
 use carom::surroundings::{Mesh, MeshError, Shape};
+use png::{BitDepth, ColorType};
 
 use crate::{Net, grid, icosphere};
 
@@ -310,4 +312,84 @@ fn heights_are_read_from_tables() {
             assert!(error.contains(part), "{part:?} is not in: {error}");
         }
     }
+}
+
+/// A picture of some colours and depth.
+fn picture(colours: ColorType, depth: BitDepth, [width, height]: [u32; 2], data: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(colours);
+    encoder.set_depth(depth);
+    encoder.write_header().unwrap().write_image_data(data).unwrap();
+    file
+}
+
+#[test]
+fn heights_are_read_from_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |keys: &str, file: &[u8]| {
+        std::fs::write(folder.path().join("heights.png"), file).unwrap();
+        let text = format!(
+            "[[surroundings]]\nshape = \"heightfield\"\norigin = [1, 2, 3]\nspacing = 0.5\nfile = \
+             \"heights.png\"\n{keys}\n[[spheres]]\nposition = [0, 0, 99]\nradius = 1\n"
+        );
+        let path = folder.path().join("scene.toml");
+        std::fs::write(&path, text).unwrap();
+        let scene = SceneFile::load(&path)?.build::<f64>()?;
+        let mesh = scene.surroundings[0].mesh().unwrap();
+        let mut places: Vec<_> = mesh.vertices().iter().map(|v| v.to_array()).collect();
+        // Row by row.
+        places.sort_by(|a, b| [a[1], a[0]].partial_cmp(&[b[1], b[0]]).unwrap());
+        Ok(places.into_iter().map(|[_, _, z]| z).collect::<Vec<_>>())
+    };
+    let (grey, wide) = (ColorType::Grayscale, [3, 2]);
+    let deep: Vec<u8> =
+        [0, 1, 65535, 32768, 256, 4369].into_iter().flat_map(u16::to_be_bytes).collect();
+    let sixteen = picture(grey, BitDepth::Sixteen, wide, &deep);
+    let height = |level: f64| 3.0 + (-2.0 + 8.0 * level);
+    let levels = [32768.0, 256.0, 4369.0, 0.0, 1.0, 65535.0].map(|level: f64| level / 65535.0);
+    let right = levels.map(height).to_vec();
+    assert_eq!(read("range = [-2, 6]", &sixteen).unwrap(), right);
+
+    let eight = picture(grey, BitDepth::Eight, wide, &[0, 51, 255, 102, 204, 255]);
+    let right = vec![3.4, 3.8, 4.0, 3.0, 3.2, 4.0];
+    assert_eq!(read("", &eight).unwrap(), right);
+    let colours = [0, 0, 0, 51, 51, 51, 255, 255, 255, 102, 102, 102, 204, 204, 204, 255, 255, 255];
+    assert_eq!(read("", &picture(ColorType::Rgb, BitDepth::Eight, wide, &colours)).unwrap(), right);
+    let one_bit = picture(grey, BitDepth::One, wide, &[0b1010_0000, 0b0110_0000]);
+    assert_eq!(read("", &one_bit).unwrap(), [3.0, 4.0, 4.0, 4.0, 3.0, 4.0]);
+    let opaque = [9, 255, 9, 255, 9, 255, 9, 255, 9, 255, 9, 255];
+    read("", &picture(ColorType::GrayscaleAlpha, BitDepth::Eight, wide, &opaque)).unwrap();
+
+    let refused = |keys: &str, file: &[u8], parts: &[&str]| {
+        let error: SceneError = read(keys, file).unwrap_err();
+        let error = error.to_string();
+        for part in parts {
+            assert!(error.contains(part), "{part:?} is not in: {error}");
+        }
+    };
+    let mut red = colours;
+    red[5] = 52;
+    let red = picture(ColorType::Rgb, BitDepth::Eight, wide, &red);
+    refused(
+        "",
+        &red,
+        &["surroundings[0].file", "heights.png", "pixel 1 from the left and 0", "grey"],
+    );
+    let mut clear = opaque;
+    clear[11] = 254;
+    let clear = picture(ColorType::GrayscaleAlpha, BitDepth::Eight, wide, &clear);
+    refused("", &clear, &["pixel 2 from the left and 1 from the top", "opaque"]);
+    let row = picture(grey, BitDepth::Eight, [3, 1], &[0; 3]);
+    refused("", &row, &["heights.png", "two rows"]);
+    refused("range = [0]", &eight, &["surroundings[0].range", "black and white"]);
+    refused("range = [0, nan]", &eight, &["surroundings[0].range"]);
+    refused("", b"0,1\n2,3\n", &["heights.png", "no picture"]);
+    for length in 0..sixteen.len() {
+        refused("", &sixteen[..length], &["heights.png", "no picture"]);
+    }
+    // More pixels than its bytes can have, with a right sum of the header.
+    let mut huge = picture(grey, BitDepth::Eight, [60_000, 2], &[0; 120_000]);
+    huge.truncate(100);
+    refused("", &huge, &["60000 × 2 pixels"]);
 }

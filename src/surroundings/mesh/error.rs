@@ -60,6 +60,10 @@ pub enum MeshError {
         problem: String,
     },
 
+    /// A picture has no heights.
+    #[error("it is no picture of heights: {0}")]
+    Picture(String),
+
     /// A file cannot be read.
     #[error("it cannot be read: {0}")]
     Unreadable(#[from] io::Error),

@@ -3,6 +3,8 @@
 //! Triangles of one plane that are joined by their sides have the plane of one of them: so
 //! both sides of a seam give the same bits, and the seam itself is never touched.
 
+use rayon::prelude::*;
+
 use super::net::Net;
 use crate::contact::greatest_component;
 use crate::numbers::array::Each;
@@ -27,16 +29,11 @@ pub(super) struct Seams {
 impl Seams {
     /// Of a net in its place.
     pub(super) fn new<T: Real>(net: &Net, vertices: &[Vec3<T>]) -> Self {
-        let count = net.corners.len();
         let corners = |triangle: u32| net.corners[triangle as usize].each(|k| vertices[k as usize]);
-        let mut planes = vec![u32::MAX; count];
-        let mut marks = vec![0; count];
-        for triangle in 0..net.len() {
-            if is_degenerate(corners(triangle)) {
-                planes[triangle as usize] = triangle;
-                marks[triangle as usize] = DEGENERATE;
-            }
-        }
+        let mark = |triangle| if is_degenerate(corners(triangle)) { DEGENERATE } else { 0 };
+        let mut marks: Vec<u8> = (0..net.len()).into_par_iter().map(mark).collect();
+        let own = |(triangle, &mark)| if mark == DEGENERATE { triangle } else { u32::MAX };
+        let mut planes: Vec<u32> = (0..).zip(&marks).map(own).collect();
         let mut edge = Vec::new();
         for first in 0..net.len() {
             if planes[first as usize] != u32::MAX {
@@ -53,18 +50,18 @@ impl Seams {
                         let plane = planes[other as usize];
                         (plane == u32::MAX, plane == first)
                     };
-                    if !(is_free || is_ours)
+                    let is_off = || {
+                        let corner = corners(other)[(back + 2) % 3];
+                        let size = greatest_component(corner).greater(greatest_component(point));
+                        let height = (corner - point).dot(normal).abs();
+                        height > T::whole(FLAT) * T::EPSILON * size
+                    };
+                    if !(is_free && !is_off() || is_ours)
                         || is_folded([corners(one), corners(other)], [side, back])
                     {
                         continue;
                     }
                     if is_free {
-                        let corner = corners(other)[(back + 2) % 3];
-                        let size = greatest_component(corner).greater(greatest_component(point));
-                        let height = (corner - point).dot(normal).abs();
-                        if height > T::whole(FLAT) * T::EPSILON * size {
-                            continue;
-                        }
                         planes[other as usize] = first;
                         edge.push(other);
                     }

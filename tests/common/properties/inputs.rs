@@ -95,15 +95,37 @@ const LINES: [&str; 44] = [
     "temperature = 1.0",
 ];
 
+/// What inputs are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Bytes of any kind.
+    Bytes,
+    /// Given files, bytes of which are changed.
+    File,
+    /// Given scene files, lines and values of which are changed.
+    Text,
+}
+
+impl Kind {
+    /// Of the property of a name.
+    pub fn of(name: &str) -> Self {
+        match name {
+            "text" => Self::Text,
+            "mesh" => Self::File,
+            _ => Self::Bytes,
+        }
+    }
+}
+
 /// Inputs by their number, from some that there are.
 pub struct Inputs {
     given: Vec<Vec<u8>>,
-    is_text: bool,
+    kind: Kind,
 }
 
 impl Inputs {
-    pub fn new(given: Vec<Vec<u8>>, is_text: bool) -> Self {
-        Self { given, is_text }
+    pub fn new(given: Vec<Vec<u8>>, kind: Kind) -> Self {
+        Self { given, kind }
     }
 
     /// The input of a number: the same always.
@@ -111,7 +133,11 @@ impl Inputs {
         let mut random = Random(number);
         // Seeds that follow each other.
         random.0 = random.bits();
-        if self.is_text { self.text(&mut random) } else { self.bytes(&mut random) }
+        match self.kind {
+            Kind::Bytes => self.bytes(&mut random),
+            Kind::File => self.file(&mut random),
+            Kind::Text => self.text(&mut random),
+        }
     }
 
     fn pick(&self, random: &mut Random) -> &[u8] {
@@ -129,6 +155,29 @@ impl Inputs {
         for _ in 0..=below(random, 8) {
             let at = below(random, bytes.len());
             bytes[at] = random.bits() as u8;
+        }
+        bytes
+    }
+
+    /// A given file with some bytes put in the place of others, one cut off or repeated.
+    fn file(&self, random: &mut Random) -> Vec<u8> {
+        let mut bytes = self.pick(random).to_vec();
+        for _ in 0..=below(random, 4) {
+            if bytes.is_empty() {
+                break;
+            }
+            let [at, other] = [(); 2].map(|()| below(random, bytes.len()));
+            match below(random, 16) {
+                0 => bytes.truncate(at),
+                1 => drop(bytes.drain(at.min(other)..at.max(other))),
+                2 => {
+                    let more = bytes[at.min(other)..at.max(other)].to_vec();
+                    bytes.splice(at..at, more);
+                }
+                3..7 => bytes[at] = random.bits() as u8,
+                7..10 => bytes[at] ^= 1 << below(random, 8),
+                _ => bytes[at] = bytes[other],
+            }
         }
         bytes
     }

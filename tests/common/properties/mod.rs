@@ -9,11 +9,16 @@ mod draws;
 mod engines;
 mod inputs;
 mod invariants;
+mod mesh;
 mod text;
+
+use std::fs;
+use std::path::{Path, PathBuf};
 
 pub use builder::builder;
 pub use engines::{event_driven, stepped};
-pub use inputs::Inputs;
+pub use inputs::{Inputs, Kind};
+pub use mesh::mesh;
 pub use text::text;
 
 /// What became of an input.
@@ -32,10 +37,23 @@ pub enum Outcome {
 pub type Property = fn(&[u8]) -> Outcome;
 
 /// All of them, by the name of their fuzz target.
-pub const PROPERTIES: [(&str, Property); 4] =
-    [("text", text), ("builder", builder), ("event_driven", event_driven), ("stepped", stepped)];
+pub const PROPERTIES: [(&str, Property); 5] = [
+    ("text", text),
+    ("mesh", mesh),
+    ("builder", builder),
+    ("event_driven", event_driven),
+    ("stepped", stepped),
+];
 
 /// A message says something. (What is in it of the input the program makes plain.)
 fn check_message(message: &str) {
     assert!(message.contains(' '), "{message:?}");
+}
+
+/// The inputs in a folder, in the order of their names.
+pub fn corpus(folder: &Path) -> Vec<Vec<u8>> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    paths.sort();
+    paths.iter().filter_map(|path| fs::read(path).ok()).collect()
 }
