@@ -20,6 +20,7 @@ mod capsule;
 mod chain;
 mod cone;
 mod convex_hull;
+mod copies;
 mod cuboid;
 mod cylinder;
 mod disc;
@@ -102,6 +103,8 @@ solids! {
         torus::Torus,
         /// A profile turned about an axis: thin, solid or hollow.
         revolved::Revolved,
+        /// A shape again and again, at equal steps.
+        copies::Copies,
         /// A part that only counts.
         sensor::Sensor,
     }

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::error::{Problem, SceneError};
 use super::origin::Origin;
-use super::raw::{KEYS, Number, RawRotation, RawSurroundings, Vector};
+use super::raw::{KEYS, Number, RawRotation, RawRow, RawSurroundings, Vector, Whole};
 use crate::numbers::array::Each;
 use crate::surroundings::{
-    Mistake, NO_VECTOR, Placement, Sensor, Shape, ShapeKind, finite, positive, shape_kinds,
+    Copies, Mistake, NO_VECTOR, Placement, Sensor, Shape, ShapeKind, finite, positive, shape_kinds,
 };
 use crate::vec3::Vec3;
 
@@ -31,6 +31,7 @@ pub(super) fn shape(
         return Err(origin.error_in(&entry, (key.name, problem)));
     }
     read(&raw.values.in_folder(folder))
+        .and_then(|shape| copied(shape, raw))
         .and_then(|shape| placed(shape, raw))
         .map(|shape| if raw.sensor { Sensor::new(shape).into() } else { shape })
         .map_err(|mistake| origin.error_in(&entry, mistake))
@@ -42,6 +43,22 @@ fn shapes() -> String {
     let names: Vec<_> = names.map(|name| format!("\"{name}\"")).collect();
     let names = names.join(", ");
     names.rsplit_once(", ").map_or(names.clone(), |(first, last)| format!("{first} or {last}"))
+}
+
+/// The shape of an entry with its copies, if it has some.
+fn copied(shape: Shape<f64>, raw: &RawSurroundings) -> Result<Shape<f64>, Mistake> {
+    let Some(rows) = &raw.copies else { return Ok(shape) };
+    let mut copies = Copies::new(shape);
+    for RawRow { count, step } in rows {
+        let Whole(count) = count
+            .ok_or_else(|| Mistake::missing("copies", "each of them has a count of shapes"))?;
+        let Vector(step) = step
+            .ok_or_else(|| Mistake::missing("copies", "each of them has a step, three numbers"))?;
+        copies = copies.along(step, count);
+    }
+    // In the words of the file, before it is moved.
+    let copies = Shape::from(copies);
+    copies.check().map(|()| copies)
 }
 
 /// The shape of an entry where its placement puts it, if it has one.

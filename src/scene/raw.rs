@@ -8,7 +8,7 @@ use core::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
 
-pub(super) use surroundings::{KEYS, RawRotation, RawSurroundings};
+pub(super) use surroundings::{KEYS, RawRotation, RawRow, RawSurroundings};
 
 use super::settings::{
     AnalysisKind, Encounters, EngineKind, Impact, OrientationUpdate, Precision, Summation,

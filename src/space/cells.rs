@@ -278,20 +278,6 @@ impl<T: Real> Grid<T> {
         2.1 * sides.iter().map(|side| side * side).sum::<f64>().sqrt()
     }
 
-    /// Every cell that a body of a radius can be in when it touches what lies
-    /// within `bounds`.
-    pub fn each_in(&self, bounds: [Vec3<T>; 2], radius: T, mut visit: impl FnMut(u32)) {
-        let [lower, upper] = self.cells_at(bounds, radius);
-        let span = |k: usize| lower[k]..=upper[k].min(lower[k] + self.axes[k].kept - 1);
-        for z in span(2) {
-            for y in span(1) {
-                for x in span(0) {
-                    visit(self.number_of([x, y, z]));
-                }
-            }
-        }
-    }
-
     /// The first and the last cell that a body of a radius can be in when it
     /// touches what lies within `bounds`.
     fn cells_at(&self, bounds: [Vec3<T>; 2], radius: T) -> [[i32; 3]; 2] {

@@ -46,6 +46,12 @@ impl<T: Real> Placement<T> {
         turned.unwrap_or(scaled) + self.shift
     }
 
+    /// The way from one point to another then, length.
+    pub(super) fn way(&self, way: Vec3<T>) -> Vec3<T> {
+        let scaled = way * self.scale;
+        self.turn.map_or(scaled, |(turn, _)| turn * scaled)
+    }
+
     /// A unit vector as it is turned then.
     pub(super) fn unit(&self, vector: Vec3<T>) -> Vec3<T> {
         self.turn.map_or(vector, |(turn, _)| {

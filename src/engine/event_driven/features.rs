@@ -55,14 +55,14 @@ pub(super) fn search_features_of_cell<T: Real>(
 ) {
     let cell = region.cells.finest.grid.number_of(region.agendas[slot as usize].cell);
     expect(setting, region, slot, setting.near.of(cell));
-    if setting.features.has_meshes() {
-        search_meshes(setting, region, slot, now);
+    if setting.features.has_meshes() || setting.near.has_tree() {
+        search_on_way(setting, region, slot, now);
     }
 }
 
-/// Looks for contacts of the body in a slot with triangles of meshes before it leaves its
-/// cell.
-fn search_meshes<T: Real>(setting: &Setting<T>, region: &mut Region<'_, T>, slot: u32, now: T) {
+/// Looks for contacts of the body in a slot with features that are found by their boxes,
+/// before it leaves its cell.
+fn search_on_way<T: Real>(setting: &Setting<T>, region: &mut Region<'_, T>, slot: u32, now: T) {
     let met = Met::of(setting, region, slot);
     let agenda = &region.agendas[slot as usize];
     let until = agenda.leaves_cell.lesser(agenda.complete_until());
@@ -70,13 +70,9 @@ fn search_meshes<T: Real>(setting: &Setting<T>, region: &mut Region<'_, T>, slot
     for image in 0..setting.images.len() as u32 {
         let shift = shift(setting, &met, image);
         let near = swept.each(|corner| corner - shift);
-        setting.features.for_each_tile(near, |_, feature| {
-            if let Some(wait) = time_to_feature(setting, &met, Image { feature, image }) {
-                let time = met.flight.since + wait;
-                let partner = PartnerCode::feature(feature);
-                keep(region, slot, Expected { time, partner, stamp: 0 });
-            }
-        });
+        let mut visit = |feature| expect_one(setting, region, slot, &met, Image { feature, image });
+        setting.near.for_each_in(near, &mut visit);
+        setting.features.for_each_tile(near, |_, feature| visit(feature));
     }
 }
 
@@ -123,11 +119,21 @@ fn expect<T: Real>(setting: &Setting<T>, region: &mut Region<'_, T>, slot: u32, 
     }
     let met = Met::of(setting, region, slot);
     for &image in images {
-        if let Some(wait) = time_to_feature(setting, &met, image) {
-            let time = met.flight.since + wait;
-            let partner = PartnerCode::feature(image.feature);
-            keep(region, slot, Expected { time, partner, stamp: 0 });
-        }
+        expect_one(setting, region, slot, &met, image);
+    }
+}
+
+fn expect_one<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<'_, T>,
+    slot: u32,
+    met: &Met<T>,
+    image: Image,
+) {
+    if let Some(wait) = time_to_feature(setting, met, image) {
+        let time = met.flight.since + wait;
+        let partner = PartnerCode::feature(image.feature);
+        keep(region, slot, Expected { time, partner, stamp: 0 });
     }
 }
 

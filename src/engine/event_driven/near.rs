@@ -3,7 +3,7 @@
 use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::cells::{Ends, Grid, Span};
-use crate::space::joined;
+use crate::space::{Bounds, Tree, joined};
 use crate::surroundings::Feature;
 use crate::vec3::Vec3;
 
@@ -20,21 +20,24 @@ pub(super) struct Image {
 const ENTRIES_EACH: usize = 64;
 const ENTRIES_BESIDES: usize = 1 << 16;
 
-/// How many cells are looked at for each such entry, before all share one list.
+/// How many cells are looked at for each such entry, before there are no lists.
 const LOOKS: usize = 8;
 
 /// The binary digits by which fewer tell lists apart when more cells share one:
 /// twice as many cells along each side.
 const SHARED_STEP: u32 = 3;
 
-/// All cells share one list.
+/// All cells would share one list.
 const ALL: u32 = 30;
 
 /// The features near each cell.
-#[derive(Debug, Default)]
-pub(super) struct Near {
+#[derive(Debug)]
+pub(super) struct Near<T> {
     /// Those near everywhere.
     everywhere: Vec<Image>,
+    /// Those that have an end, where lists would tell little: many cells fold into each, or
+    /// all would share one.
+    tree: Tree<T>,
     /// The number of a cell's list is its own without this number of last digits.
     shared: u32,
     /// Where each list starts in `images`.
@@ -79,38 +82,32 @@ impl Lists {
     }
 }
 
-impl Near {
+impl<T: Real> Near<T> {
     /// Finds the features near each cell, for bodies of up to `radius`.
-    pub fn new<T: Real>(
-        features: &[Feature<T>],
-        images: &[Vec3<T>],
-        cells: &Grid<T>,
-        radius: T,
-    ) -> Self {
-        let mut near = Self::default();
+    pub fn new(features: &[Feature<T>], images: &[Vec3<T>], cells: &Grid<T>, radius: T) -> Self {
+        let tree = Tree::new([]);
+        let (everywhere, starts) = (Vec::new(), Vec::new());
+        let mut near = Self { everywhere, tree, shared: 0, starts, images: Vec::new() };
+        if cells.is_folded() {
+            return near.in_tree(features, images);
+        }
         let mut lists = Lists::new(features.len() * images.len());
-        let is_folded = cells.is_folded();
-        for (number, feature) in features.iter().enumerate() {
+        for (number, feature) in (0..).zip(features) {
             let bounds = feature.bounds();
-            for (image, shift) in images.iter().enumerate() {
-                let this = Image { feature: number as u32, image: image as u32 };
+            for (image, shift) in (0..).zip(images) {
+                let this = Image { feature: number, image };
                 let bounds = bounds.map(|bounds| bounds.each(|corner| corner + *shift));
-                if is_folded && bounds.is_none() {
-                    near.everywhere.push(this);
-                } else if lists.shared == ALL {
-                    lists.put(this, 0);
-                } else if let Some(bounds) = bounds.filter(|_| is_folded) {
-                    cells.each_in(bounds, radius, |cell| lists.put(this, cell));
-                } else {
-                    let is_near = |center: Vec3<T>, reach: T| {
-                        feature.clearance(center - *shift, radius).gap.le(reach)
-                    };
-                    cells.each_near(bounds, radius, is_near, |cell| lists.put(this, cell));
+                let is_near = |center: Vec3<T>, reach: T| {
+                    feature.clearance(center - *shift, radius).gap.le(reach)
+                };
+                cells.each_near(bounds, radius, is_near, |cell| lists.put(this, cell));
+                if lists.shared == ALL {
+                    return near.in_tree(features, images);
                 }
             }
         }
         let Lists { mut entries, shared, .. } = lists;
-        // Where two images of a cell fold into one, or cells share a list.
+        // Where cells share a list.
         entries.sort_unstable();
         entries.dedup();
         entries.sort_by_key(|&(_, list)| list);
@@ -128,9 +125,28 @@ impl Near {
         near
     }
 
+    fn in_tree(mut self, features: &[Feature<T>], images: &[Vec3<T>]) -> Self {
+        self.tree = Tree::new(features.iter().map(Feature::bounds));
+        let images = 0..images.len() as u32;
+        let of = |&feature| images.clone().map(move |image| Image { feature, image });
+        self.everywhere = self.tree.endless().iter().flat_map(of).collect();
+        self
+    }
+
     /// Whether it depends on the cell which features are near.
     pub fn has_cells(&self) -> bool {
-        !self.images.is_empty()
+        !self.images.is_empty() || self.has_tree()
+    }
+
+    /// Whether those that have an end are found by their boxes, not by cells.
+    pub fn has_tree(&self) -> bool {
+        !self.tree.is_empty()
+    }
+
+    /// Visits those that have an end whose boxes touch a box, where there are no lists.
+    #[inline]
+    pub fn for_each_in(&self, bounds: Bounds<T>, visit: impl FnMut(u32)) {
+        self.tree.for_each(bounds, visit);
     }
 
     /// The features that are near everywhere.
@@ -150,7 +166,9 @@ impl Near {
 
     /// The bytes that the lists hold.
     pub fn bytes(&self) -> usize {
-        self.starts.capacity() * size_of::<u32>() + self.images.capacity() * size_of::<Image>()
+        self.starts.capacity() * size_of::<u32>()
+            + self.images.capacity() * size_of::<Image>()
+            + self.tree.bytes()
     }
 }
 

@@ -39,7 +39,7 @@ pub(super) struct Setting<T: Real> {
     pub further: Vec<Vec3<T>>,
     /// `further` in the coarse precision.
     pub coarse_further: Vec<Vec3<T::Coarse>>,
-    pub near: Near,
+    pub near: Near<T>,
     pub has_cells: bool,
     /// Looks for a body's contacts with others, in the plan's lanes.
     pub search_bodies: Search<T>,
@@ -87,8 +87,9 @@ impl<T: Real> Setting<T> {
         let bounded = features.alone().iter().filter(|feature| feature.bounds().is_some()).count();
         let is_periodic = scene.periodic.is_some();
         let fitting = |span| Levels::fitting(span, &bodies.radius, len, bounded);
-        // Each image of a solid without end would be near everywhere.
-        let can_fold = !is_periodic || bounded == features.alone().len();
+        // Each image of a solid without end would be near everywhere. Crowds that do not meet
+        // fill no cells.
+        let can_fold = plan.has_pairs && (!is_periodic || bounded == features.alone().len());
         let is_few =
             !is_periodic && len + features.len() <= FEW && execution.order != Order::Windows;
         let folded = || {

@@ -17,6 +17,7 @@ pub(in crate::scene) struct RawSurroundings {
     pub(in crate::scene) shape: Option<&'static ShapeKind>,
     pub(in crate::scene) values: ShapeEntry,
     pub(in crate::scene) name: Option<String>,
+    pub(in crate::scene) copies: Option<Vec<RawRow>>,
     pub(in crate::scene) sensor: bool,
     pub(in crate::scene) removes: bool,
     pub(in crate::scene) translation: Option<Vector>,
@@ -34,7 +35,8 @@ impl RawSurroundings {
             self.values.dilate(factor);
         }
         let center = self.rotation.as_mut().and_then(|rotation| rotation.center.as_mut());
-        for Vector(point) in self.translation.as_mut().into_iter().chain(center) {
+        let steps = self.copies.iter_mut().flatten().filter_map(|row| row.step.as_mut());
+        for Vector(point) in self.translation.as_mut().into_iter().chain(center).chain(steps) {
             *point = point.each(|component| component * factor);
         }
     }
@@ -49,10 +51,20 @@ pub(in crate::scene) struct RawRotation {
     pub(in crate::scene) center: Option<Vector>,
 }
 
+/// One of `copies`: as many shapes, each a step from the one before.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct RawRow {
+    pub(in crate::scene) count: Option<Whole>,
+    pub(in crate::scene) step: Option<Vector>,
+}
+
 /// What a shape's name stands under.
 const SHAPE: &str = "shape";
 /// What a part is called.
 const NAME: &str = "name";
+/// The copies of a shape.
+const COPIES: &str = "copies";
 /// Whether a part only counts.
 const SENSOR: &str = "sensor";
 /// Whether a part takes out what touches it.
@@ -81,7 +93,7 @@ static KEY_NAMES: LazyLock<Vec<&str>> = LazyLock::new(|| {
     [SHAPE]
         .into_iter()
         .chain(own)
-        .chain([NAME, SENSOR, REMOVES, TRANSLATION, ROTATION, SCALE])
+        .chain([NAME, COPIES, SENSOR, REMOVES, TRANSLATION, ROTATION, SCALE])
         .collect()
 });
 
@@ -93,6 +105,7 @@ static SHAPE_NAMES: LazyLock<Vec<&str>> =
 enum Field {
     Shape,
     Name,
+    Copies,
     Sensor,
     Removes,
     Translation,
@@ -114,6 +127,7 @@ impl<'de> Deserialize<'de> for Field {
                 match name {
                     SHAPE => return Ok(Field::Shape),
                     NAME => return Ok(Field::Name),
+                    COPIES => return Ok(Field::Copies),
                     SENSOR => return Ok(Field::Sensor),
                     REMOVES => return Ok(Field::Removes),
                     TRANSLATION => return Ok(Field::Translation),
@@ -172,6 +186,7 @@ impl<'de> Deserialize<'de> for RawSurroundings {
                             raw.values.shape = name;
                         }
                         Field::Name => raw.name = Some(map.next_value()?),
+                        Field::Copies => raw.copies = Some(map.next_value()?),
                         Field::Sensor => raw.sensor = map.next_value()?,
                         Field::Removes => raw.removes = map.next_value()?,
                         Field::Translation => raw.translation = Some(map.next_value()?),
