@@ -5,8 +5,19 @@ use crate::column::Column;
 use crate::mat3::Mat3;
 use crate::numbers::array::{self, Each};
 use crate::real::Real;
+use crate::vec3::Vec3;
 
 impl<T: Real> Bodies<T> {
+    /// One of them with another position, velocity and angular velocity, not turned.
+    pub(crate) fn one_moving(&self, index: usize, motion: [Vec3<T>; 3]) -> Self {
+        let columns = |vector: Vec3<T>| vector.to_array().each(|c| column([c].into_iter()));
+        let [position, velocity, spin] = motion.each(columns);
+        let [radius, mass, inertia] = [&self.radius, &self.mass, &self.inertia]
+            .each(|figure| PerBody::Same(figure.of(index)));
+        let (origin, orientation) = (self.origin, None);
+        Self { origin, position, velocity, spin, orientation, radius, mass, inertia }
+    }
+
     /// These and, behind them, others.
     pub(crate) fn with(&self, others: &Self) -> Self {
         let [own, more] = [self.len(), others.len()];

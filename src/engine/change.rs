@@ -83,6 +83,9 @@ impl<T: Real> Base<T> {
     /// Goes on with what another one has seen come and go, whose parts are `kept` so.
     pub fn take_over(&mut self, before: &mut Self, kept: Option<&KeptParts>) {
         self.flow = before.flow.take();
+        if let Some(flow) = &mut self.flow {
+            flow.forget_mass();
+        }
         if let (Some(flow), Some(kept)) = (&mut self.flow, kept) {
             flow.keep_parts(kept, &self.scene.removes);
         }
@@ -105,7 +108,8 @@ impl<T: Real> Base<T> {
             let saved = |handles: &Handles| SavedParts::of(&self.scene, handles);
             later.parts = self.part_handles.as_ref().map(saved);
         }
-        saved.flow = self.flow.as_ref().map(|flow| Box::new(flow.state.clone()));
+        let out = self.handles.out();
+        saved.flow = self.flow.as_ref().map(|flow| Box::new(flow.state.with_out(out)));
     }
 
     /// Goes on from what a snapshot remembers.
@@ -114,6 +118,9 @@ impl<T: Real> Base<T> {
         if self.flow.is_none() && self.part_handles.is_some() && saved.flow.is_some() {
             // What took spheres out was removed since.
             self.flow = Some(Box::new(Flow::spent(&self.scene)));
+        }
+        if let Some(state) = &saved.flow {
+            self.handles.set_out(state.out());
         }
         match (&mut self.flow, &saved.flow) {
             (None, None) => Ok(()),
@@ -208,7 +215,7 @@ pub struct Change<'a, T: Real> {
 impl<'a, T: Real> Change<'a, T> {
     fn new(target: Target<'a, T>, bodies: Bodies<T>, gravity: Vec3<T>) -> Self {
         let placed = vec![false; bodies.len()];
-        let (removed, handles) = (placed.clone(), target.base().handles.clone());
+        let (removed, handles) = (placed.clone(), target.base().handles.left());
         let parts = target.base().changed_parts();
         Self {
             target,

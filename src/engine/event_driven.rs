@@ -320,6 +320,15 @@ impl<T: Real> EventDriven<T> {
         }
     }
 
+    /// Takes those out that are to go now.
+    pub(super) fn take_out_due(&mut self) {
+        let time = self.time();
+        let Self { engine, base: Base { flow, handles, .. }, .. } = self;
+        if let Some(flow) = flow {
+            flow.take_out(&mut **engine, handles, time);
+        }
+    }
+
     /// What the scene needs.
     ///
     /// ```

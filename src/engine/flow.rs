@@ -1,14 +1,15 @@
 //! Flow: spheres that come into a world and go out of it by its scene.
 //!
-//! Each exchange is a change of the world ([`Change`]): it goes on as a new one that is built
-//! in that state. So both engines take it as they are, and it costs as much as to start a
-//! world, whatever is exchanged: all that go at one time, or in one step, go at once.
+//! The event-driven engine takes spheres out as it goes. Every other exchange is a change of
+//! the world ([`Change`]): it goes on as a new one that is built in that state, and it costs as
+//! much as to start a world, whatever is exchanged: all that go in one step go at once.
 
 #[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 use super::change::{Apply, Change, ChangeError, KeptParts};
 use super::handles::Handles;
+use super::interface::EventEngine;
 #[cfg(feature = "files")]
 use super::snapshot::Misfit;
 use super::{EngineError, Event, EventDriven, Listener, PartTotals, Partner, Stepped, World};
@@ -92,8 +93,50 @@ pub(super) struct FlowState {
     sources: Vec<Source>,
     /// Spheres that each part took out.
     removed_by: Vec<u64>,
-    /// Bodies that are to go, each with the part that takes it.
+    /// Bodies that are to go, by their indices in the engine, each with the part that takes it.
     gone: Vec<(u32, u32)>,
+    /// The mass of all spheres, once it was summed since others came.
+    mass: Option<f64>,
+    /// In a snapshot, as [`Handles::out`] has it.
+    #[cfg(feature = "files")]
+    out: Vec<u32>,
+}
+
+impl FlowState {
+    /// For a snapshot.
+    #[cfg(feature = "files")]
+    pub fn with_out(&self, out: &[u32]) -> Self {
+        Self { out: out.to_vec(), ..self.clone() }
+    }
+
+    /// Bodies that were taken out, by their indices in the engine, in a snapshot.
+    #[cfg(feature = "files")]
+    pub fn out(&self) -> &[u32] {
+        &self.out
+    }
+
+    /// Adds up the mass of all spheres up to a time.
+    fn pass<T: Real>(&mut self, time: f64, bodies: impl FnOnce() -> Bodies<T>) {
+        let sum = || {
+            let bodies = bodies();
+            (0..bodies.len()).map(|body| bodies.mass.of(body).to_f64()).sum()
+        };
+        let mass = *self.mass.get_or_insert_with(sum);
+        let (sum, since) = self.exchange.mass_time;
+        self.exchange.mass_time = (sum + mass * (time - since), time);
+    }
+
+    /// Notes that a part takes a sphere out, which is a body of some.
+    fn note_removed<T: Real>(
+        &mut self,
+        (bodies, body): (&Bodies<T>, usize),
+        part: u32,
+        gravity: Vec3<f64>,
+    ) {
+        self.exchange.removed.add(bodies, body, gravity);
+        self.removed_by[part as usize] += 1;
+        self.mass = self.mass.map(|mass| mass - bodies.mass.of(body).to_f64());
+    }
 }
 
 /// How far an inlet has come.
@@ -128,6 +171,11 @@ impl Flow {
         let removes = scene.removes.clone();
         let state = FlowState { removed_by: vec![0; removes.len()], ..FlowState::default() };
         Self { removes, inlets: Vec::new(), state }
+    }
+
+    /// The spheres are others from now on.
+    pub fn forget_mass(&mut self) {
+        self.state.mass = None;
     }
 
     /// Goes on among other parts: which of them take spheres out.
@@ -206,6 +254,23 @@ impl Flow {
         ahead.map(|(inlet, source)| inlet.time(source.due)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Takes those out of an engine that are to go now.
+    pub fn take_out<T: Real>(
+        &mut self,
+        engine: &mut dyn EventEngine<T>,
+        handles: &mut Handles,
+        time: f64,
+    ) {
+        let gravity = engine.gravity().cast::<f64>();
+        self.state.pass(time, || engine.bodies());
+        for (body, part) in core::mem::take(&mut self.state.gone) {
+            if let Some(taken) = engine.take_out(body) {
+                self.state.note_removed((&taken, 0), part, gravity);
+                handles.take_out(body);
+            }
+        }
+    }
+
     /// Exchanges what is due at a time. What cannot be stays to be done.
     fn exchange<T: Real>(
         &mut self,
@@ -215,13 +280,9 @@ impl Flow {
     ) -> Result<(), EngineError> {
         let mut state = self.state.clone();
         let gravity = change.gravity().cast::<f64>();
-        let bodies = change.bodies();
-        let mass: f64 = (0..bodies.len()).map(|body| bodies.mass.of(body).to_f64()).sum();
-        let (sum, since) = state.exchange.mass_time;
-        state.exchange.mass_time = (sum + mass * (time - since), time);
+        state.pass(time, || change.bodies().clone());
         for (body, part) in core::mem::take(&mut state.gone) {
-            state.exchange.removed.add(change.bodies(), body as usize, gravity);
-            state.removed_by[part as usize] += 1;
+            state.note_removed((change.bodies(), body as usize), part, gravity);
             change.remove(body as usize);
         }
         if self.next() <= time {
@@ -267,6 +328,10 @@ impl<T: Real> EventDriven<T> {
     /// Exchanges what is due now.
     pub(super) fn exchange_due(&mut self) -> Result<(), EngineError> {
         let time = self.time();
+        self.take_out_due();
+        if self.base().flow.as_ref().is_none_or(|flow| flow.next() > time) {
+            return Ok(());
+        }
         let Some(mut flow) = self.base_mut().flow.take() else { return Ok(()) };
         let done = flow.exchange(self.apply, self.change(), time);
         self.base_mut().flow = Some(flow);

@@ -366,4 +366,8 @@ impl<T: Real, E: EventEngine<T> + ?Sized> EventEngine<T> for Framed<T, E> {
     fn effort(&self) -> Effort {
         self.engine.effort()
     }
+
+    fn take_out(&mut self, index: u32) -> Option<Bodies<T>> {
+        self.engine.take_out(index).map(|taken| self.frame.leave(taken))
+    }
 }

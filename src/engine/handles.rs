@@ -69,36 +69,87 @@ pub(super) struct Handles {
     listed: Option<Vec<BodyHandle>>,
     /// Those from here on are new.
     next: u64,
+    /// Of those that an engine has, the ones that were taken out since it started, by its
+    /// indices, which rise.
+    out: Vec<u32>,
 }
 
 impl Handles {
     /// Of a world at its start.
     pub fn new(bodies: usize) -> Self {
-        Self { listed: None, next: bodies as u64 }
+        Self { listed: None, next: bodies as u64, out: Vec::new() }
     }
 
     /// How many there are.
     pub fn count(&self) -> usize {
+        self.count_of_engine() - self.out.len()
+    }
+
+    /// How many an engine has, with those that were taken out.
+    pub fn count_of_engine(&self) -> usize {
         self.listed.as_ref().map_or(self.next as usize, Vec::len)
     }
 
     pub fn of(&self, index: usize) -> Option<BodyHandle> {
+        // Each one that is out before it moves it on.
+        let moved = |at: usize| self.out[at] as usize - at <= index;
+        let (mut low, mut high) = (0, self.out.len());
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if moved(middle) { low = middle + 1 } else { high = middle }
+        }
+        self.of_engine(index + low)
+    }
+
+    fn of_engine(&self, index: usize) -> Option<BodyHandle> {
         match &self.listed {
             Some(listed) => listed.get(index).copied(),
             None => Some(BodyHandle(index as u64)).filter(|handle| handle.0 < self.next),
         }
     }
 
-    /// The number of the body of an index that there is.
+    /// The number of the body that has an index in the engine.
     pub fn number_of(&self, index: u32) -> u32 {
-        self.of(index as usize).map_or(index, |handle| handle.0 as u32)
+        self.of_engine(index as usize).map_or(index, |handle| handle.0 as u32)
     }
 
     pub fn index_of(&self, handle: BodyHandle) -> Option<usize> {
-        match &self.listed {
+        let index = match &self.listed {
             Some(listed) => listed.binary_search(&handle).ok(),
             None => Some(handle.0 as usize).filter(|_| handle.0 < self.next),
+        };
+        let index = index?;
+        let before = self.out.binary_search(&(index as u32)).err()?;
+        Some(index - before)
+    }
+
+    /// Takes the body out that has an index in the engine, which keeps those of the others.
+    pub fn take_out(&mut self, index: u32) {
+        if let Err(at) = self.out.binary_search(&index) {
+            self.out.insert(at, index);
         }
+    }
+
+    /// Those that were taken out, by their indices in the engine.
+    pub fn out(&self) -> &[u32] {
+        &self.out
+    }
+
+    /// As they were taken out before a snapshot.
+    #[cfg(feature = "files")]
+    pub fn set_out(&mut self, out: &[u32]) {
+        out.clone_into(&mut self.out);
+    }
+
+    /// Of the bodies that there are, for an engine that starts with them.
+    #[must_use]
+    pub fn left(&self) -> Self {
+        let mut left = self.clone();
+        if !self.out.is_empty() {
+            left.listed = Some((0..self.count()).filter_map(|index| self.of(index)).collect());
+            left.out.clear();
+        }
+        left
     }
 
     /// The handle of a part, of those of parts.
@@ -127,7 +178,8 @@ impl Handles {
 
     /// The bytes that they hold.
     pub fn bytes(&self) -> usize {
-        self.listed.as_ref().map_or(0, |listed| size_of_val(listed.as_slice()))
+        let listed = self.listed.as_ref().map_or(0, |listed| size_of_val(listed.as_slice()));
+        listed + size_of_val(self.out.as_slice())
     }
 }
 

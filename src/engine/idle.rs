@@ -132,4 +132,8 @@ impl<T: Real> EventEngine<T> for Idle<T> {
     fn effort(&self) -> Effort {
         Effort::default()
     }
+
+    fn take_out(&mut self, _index: u32) -> Option<Bodies<T>> {
+        None
+    }
 }

@@ -94,4 +94,8 @@ pub trait EventEngine<T: Real>: Engine<T> {
 
     /// What it took to find the collisions so far.
     fn effort(&self) -> Effort;
+
+    /// Takes the body of an index out, and gives it as it was after its last collision. The
+    /// others keep their indices in events, but [`bodies`](Engine::bodies) are those left.
+    fn take_out(&mut self, index: u32) -> Option<Bodies<T>>;
 }

@@ -230,4 +230,8 @@ impl<T: Real, E: EventEngine<T> + ?Sized> EventEngine<T> for Later<T, E> {
     fn effort(&self) -> Effort {
         self.engine.effort()
     }
+
+    fn take_out(&mut self, index: u32) -> Option<Bodies<T>> {
+        self.engine.take_out(index)
+    }
 }

@@ -57,6 +57,7 @@ pub(super) struct Seen {
 struct Begun {
     center: [f64; 3],
     velocity: [f64; 3],
+    /// Infinite of a body that was taken out.
     since: f64,
 }
 
@@ -170,7 +171,7 @@ impl Watch {
         let mut counts = self.seen.passages.clone();
         let sides = self.seen.is_inside.chunks_exact(self.gates.len());
         for (begun, sides) in self.seen.flights.iter().zip(sides) {
-            let Some(now) = now else { break };
+            let Some(now) = now.filter(|_| begun.since.is_finite()) else { continue };
             let flight = begun.flight(self.pull);
             for (((_, gate), side), count) in self.gates.iter().zip(sides).zip(&mut counts) {
                 *count += gate.passages(&flight, now - begun.since, *side).0;
@@ -323,5 +324,10 @@ impl<T: Real> EventEngine<T> for Sensed<T, dyn EventEngine<T>> {
 
     fn effort(&self) -> Effort {
         self.engine.effort()
+    }
+
+    fn take_out(&mut self, index: u32) -> Option<Bodies<T>> {
+        self.watch.seen.flights[index as usize].since = f64::INFINITY;
+        self.engine.take_out(index)
     }
 }

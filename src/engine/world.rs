@@ -87,7 +87,7 @@ impl<T: Compiled> World<T> {
             Some(later) => {
                 let SavedLater { elapsed, start, handles, parts, .. } = &**later;
                 let (gravity, bodies) = start.read().map_err(misfit)?;
-                if handles.count() != bodies.len() {
+                if handles.count_of_engine() != bodies.len() {
                     return Err(misfit(Misfit("bodies")));
                 }
                 let parts = parts.as_ref().map(|parts| parts.names(&scene)).transpose();

@@ -59,7 +59,7 @@ pub fn builtin_scenes() -> &'static [BuiltinScene] {
         "pi": "a heavy ball, a light one and a wall: 314,159 collisions",
         "wedge": "a ball between two slopes under gravity, never at rest",
         "giant-in-dust": "a sphere among 5,000 that are a hundred times smaller",
-        "galton-board": "2,000 balls fall through ten rows of pins between two panes",
+        "galton-board": "100,000 balls fall through 2,000 pins between two panes, into bins",
         "funnel": "rough balls fall through a funnel into a container",
         "hopper": "balls come into a hopper, fall through its outlet and are taken out",
         "drum": "rough balls in a drum that lies on its side",

@@ -15,6 +15,9 @@ impl PartnerCode {
     /// Nothing yet.
     pub const NONE: Self = Self(u32::MAX);
 
+    /// What nothing meets any longer: it was taken out.
+    pub const OUT: Self = Self(u32::MAX - 1);
+
     /// A body, by its slot or by its index.
     #[inline(always)]
     pub fn body(number: u32) -> Self {
@@ -125,6 +128,12 @@ impl<T: Real> Agenda<T> {
             cell,
             aligned: [],
         }
+    }
+
+    /// Nothing is ahead of it any longer.
+    pub fn end(&mut self) {
+        let never = T::from_f64(f64::INFINITY);
+        *self = Self { leaves_cell: never, complete_until: never, ..Self::new(self.cell) };
     }
 
     /// Forgets all contacts: those up to `until` are about to be found again.

@@ -217,10 +217,8 @@ impl<T: Real> EventEngine<T> for Driver<T> {
     fn mean_free_path(&self) -> Option<f64> {
         let ends = self.account().collisions.ends();
         let now = self.clock.now();
-        let under_way: CompensatedSum = self
-            .store
-            .records
-            .iter()
+        let records = self.store.slots().map(|slot| &self.store.records[slot]);
+        let under_way: CompensatedSum = records
             .map(|record| {
                 let flight = record.flight();
                 (flight.velocity.length() * (now - flight.since)).to_f64()
@@ -231,6 +229,19 @@ impl<T: Real> EventEngine<T> for Driver<T> {
 
     fn effort(&self) -> Effort {
         self.account().effort
+    }
+
+    fn take_out(&mut self, index: u32) -> Option<Bodies<T>> {
+        let Self { setting, store, team, .. } = self;
+        let slot = store.index.iter().position(|&own| own == index)?;
+        if store.is_out(slot) {
+            return None;
+        }
+        let flight = store.records[slot].flight();
+        let motion = [flight.position, flight.velocity, store.spin_of(setting, slot)];
+        let taken = setting.bodies.one_moving(index as usize, motion);
+        store.take_out(setting, slot, team.first().new_stamp());
+        Some(taken)
     }
 }
 
@@ -257,7 +268,7 @@ impl<T: Real> Engine<T> for Driver<T> {
 
     fn bodies(&self) -> Bodies<T> {
         let Self { setting, store, .. } = self;
-        let len = store.records.len();
+        let len = setting.plan.bodies;
         let now = self.clock.now();
         let columns = || array::from_fn(|_| Column::new(len, T::ZERO));
         let mut bodies = setting.bodies.clone();
@@ -268,7 +279,7 @@ impl<T: Real> Engine<T> for Driver<T> {
                 .orientation
                 .get_or_insert_with(|| Box::new(rows.each(|element| Column::new(len, element))));
         }
-        for slot in 0..len {
+        for slot in store.slots() {
             let at = store.index[slot] as usize;
             let (position, velocity) = setting.state_of(&store.records[slot].flight(), now);
             let position = setting.periodic.map_or(position, |space| space.wrap(position));
@@ -290,6 +301,11 @@ impl<T: Real> Engine<T> for Driver<T> {
                 }
             }
         }
+        if store.slots().count() < len {
+            let mut left: Vec<_> = store.slots().map(|slot| store.index[slot] as usize).collect();
+            left.sort_unstable();
+            bodies = bodies.only(&left);
+        }
         bodies.left_by_world()
     }
 
@@ -303,7 +319,8 @@ impl<T: Real> Engine<T> for Driver<T> {
     #[cfg(feature = "files")]
     fn restore(&mut self, saved: &Snapshot) -> Result<(), Misfit> {
         let State::EventDriven(state) = &saved.state else { return Err(Misfit("engine")) };
-        self.clock = snapshot::restore(&self.setting, &mut self.store, state)?;
+        let out = saved.flow.as_ref().map_or(&[][..], |flow| flow.out());
+        self.clock = snapshot::restore(&self.setting, &mut self.store, state, out)?;
         if self.setting.plan.order == Order::Windows {
             self.begin_windows(self.clock.period * T::ratio(1, FIRST_WINDOWS));
         }

@@ -49,6 +49,7 @@ pub(super) fn begin_period<T: Real>(
     clock: &mut Clock<T>,
     end: T,
 ) {
+    store.forget_out();
     let worker = team.first();
     let mut region = store.whole(worker, None);
     for slot in 0..region.records.len() {
@@ -199,7 +200,7 @@ fn chosen_period<T: Real>(setting: &Setting<T>, store: &Store<T>, longer: u32) -
         return (T::from_f64(longest::<T>()), T::from_f64(longest::<T>()));
     }
     let len = store.records.len();
-    let mut squares = vec![0.0; len];
+    let mut squares = vec![0.0; setting.plan.bodies];
     for (record, &index) in store.records.iter().zip(&store.index) {
         squares[index as usize] = record.flight().velocity.length_squared().to_f64();
     }

@@ -44,40 +44,43 @@ struct Turning {
 
 /// What is to be remembered.
 pub(super) fn save<T: Real>(store: &Store<T>, clock: &Clock<T>, is_too_fast: bool) -> EventState {
-    let flights = || store.records.iter().map(Record::flight);
-    let (spins, turned) = (&store.spins, &store.turned);
+    let flights = || store.slots().map(|slot| store.records[slot].flight());
+    let marks = || store.slots().map(|slot| store.marks[slot]);
+    let turned = || store.slots().map(|slot| store.turned[slot]);
     EventState {
         clock: clock.save(),
         is_too_fast,
-        index: store.index.clone(),
+        index: store.slots().map(|slot| store.index[slot]).collect(),
         position: reals3_of(flights().map(|flight| flight.position)),
         velocity: reals3_of(flights().map(|flight| flight.velocity)),
         since: Reals::of(flights().map(|flight| flight.since)),
-        last: store.marks.iter().map(|mark| mark.last.code()).collect(),
-        follows: store.marks.iter().map(|mark| mark.follows).collect(),
-        turning: (!turned.is_empty()).then(|| Turning {
-            spin: reals3_of(spins.iter().copied()),
+        last: marks().map(|mark| mark.last.code()).collect(),
+        follows: marks().map(|mark| mark.follows).collect(),
+        turning: (!store.turned.is_empty()).then(|| Turning {
+            spin: reals3_of(store.slots().map(|slot| store.spins[slot])),
             orientation: array::from_fn(|k| {
-                Reals::of(turned.iter().map(|(orientation, _)| orientation.rows()[k]))
+                Reals::of(turned().map(|(orientation, _)| orientation.rows()[k]))
             }),
-            since: Reals::of(turned.iter().map(|(_, since)| *since)),
+            since: Reals::of(turned().map(|(_, since)| since)),
         }),
     }
 }
 
-/// Goes on from there, with a store of the scene at its start: all but what is ahead.
+/// Goes on from there, with a store of the scene at its start, some of whose bodies are `out`
+/// by now: all but what is ahead.
 pub(super) fn restore<T: Real>(
     setting: &Setting<T>,
     store: &mut Store<T>,
     saved: &EventState,
+    out: &[u32],
 ) -> Result<Clock<T>, Misfit> {
-    let len = store.records.len();
+    let mut has = vec![false; store.records.len()];
+    let len = has.len().checked_sub(out.len()).ok_or(Misfit("bodies"))?;
     let three = |columns: &Reals3, what| -> Result<Vec<Vec3<T>>, Misfit> {
         let [x, y, z] = columns3(columns, len, what)?;
         Ok((0..len).map(|slot| Vec3::new(x[slot], y[slot], z[slot])).collect())
     };
-    let mut has = vec![false; len];
-    for &index in &saved.index {
+    for &index in saved.index.iter().chain(out) {
         *has.get_mut(index as usize).ok_or(Misfit("bodies"))? = true;
     }
     let lengths = [saved.index.len(), saved.last.len(), saved.follows.len()];

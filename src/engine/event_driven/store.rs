@@ -1,6 +1,6 @@
 //! Store: the bodies and cells of all regions.
 
-use super::agenda::Agenda;
+use super::agenda::{Agenda, PartnerCode};
 use super::coarse::Screening;
 use super::flight::{Flight, Record};
 use super::log::{Log, Mark};
@@ -83,6 +83,47 @@ impl<T: Real> Store<T> {
             window,
             is_whole: true,
         }
+    }
+
+    /// Whether the body in a slot was taken out.
+    pub fn is_out(&self, slot: usize) -> bool {
+        self.marks[slot].last == PartnerCode::OUT
+    }
+
+    /// The slots of the bodies that there are.
+    pub fn slots(&self) -> impl Iterator<Item = usize> + Clone {
+        (0..self.records.len()).filter(|&slot| !self.is_out(slot))
+    }
+
+    /// Takes the body in a slot out: it meets nothing any longer, and is forgotten where the
+    /// next period begins.
+    pub fn take_out(&mut self, setting: &Setting<T>, slot: usize, stamp: u32) {
+        if setting.plan.has_pairs {
+            let cell = self.agendas[slot].cell;
+            let mut cells = self.cells.held();
+            let level =
+                if cells.len() == 1 { 0 } else { cells.level_of(self.records[slot].radius()) };
+            cells.remove(level, cell, slot as u32);
+        }
+        self.agendas[slot].end();
+        self.marks[slot] = Mark { stamp, last: PartnerCode::OUT, ..self.marks[slot] };
+    }
+
+    /// Forgets the bodies that were taken out: all but their agendas, which are to be begun.
+    pub fn forget_out(&mut self) {
+        let is_out: Vec<bool> = (0..self.records.len()).map(|slot| self.is_out(slot)).collect();
+        if !is_out.contains(&true) {
+            return;
+        }
+        fn keep<V>(values: &mut Vec<V>, is_out: &[bool]) {
+            let mut out = is_out.iter();
+            values.retain(|_| out.next() != Some(&true));
+        }
+        keep(&mut self.records, &is_out);
+        keep(&mut self.index, &is_out);
+        keep(&mut self.marks, &is_out);
+        keep(&mut self.spins, &is_out);
+        keep(&mut self.turned, &is_out);
     }
 
     /// The spin of the body in a slot.
