@@ -3,9 +3,10 @@
 
 use carom::engine::{Execution, Lanes, Order, PartTotals, Partner, World};
 use carom::scene::{EngineKind, Scene, SceneFile, Sphere};
+use carom::state_hash;
 use carom::surroundings::{
-    Capsule, Cone, Cuboid, Cylinder, Disc, FixedSphere, Hull, Plane, Revolved, Shape, Torus,
-    Triangle, Tube,
+    Capsule, Cone, Copies, Cuboid, Cylinder, Disc, FixedSphere, Hull, Plane, Revolved, Shape,
+    Torus, Triangle, Tube,
 };
 
 /// Balls in a container with a funnel, and a plate that none comes to.
@@ -211,4 +212,79 @@ fn areas_are_those_of_the_surfaces() {
     }
     assert_eq!(Shape::from(Cylinder::solid(origin, up, 1.0, None)).area(), None);
     assert_eq!(Shape::from(Cone::endless_solid(origin, up, 1.0)).area(), None);
+}
+
+/// Copies are the same shapes, one by one, as entries of their own: event by event, and step
+/// by step.
+#[test]
+fn copies_are_as_shapes_of_their_own() {
+    let before = "gravity = [0, 0, -2]\nstepped = { dt = 0.01 }\n[[spheres]]\ncount = 60\n\
+                  arrangement = \"random\"\nradius = 0.2\ntemperature = 2\nlower = [-4, -4, 2]\n\
+                  upper = [4, 4, 4]\n[[surroundings]]\nshape = \"box\"\ninside = true\n\
+                  lower = [-4, -4, -4]\nupper = [4, 4, 4]\n";
+    let pin = |center: [f64; 3]| {
+        format!(
+            "[[surroundings]]\nshape = \"capped-cylinder\"\naxis = [0, 1, 0]\nradius = 0.25\n\
+             half_height = 1\ncenter = {center:?}\n"
+        )
+    };
+    let rows =
+        "copies = [{ count = 4, step = [1.5, 0, 0] }, { count = 3, step = [0.25, 0, -1] }]\n";
+    let together = format!("{before}{}name = \"pins\"\n{rows}", pin([-3.0, 0.5, 0.0]));
+    let mut alone = before.to_owned();
+    for (row, k) in (0..3).flat_map(|row| (0..4).map(move |k| (f64::from(row), f64::from(k)))) {
+        alone += &pin([-3.0 + 1.5 * k + 0.25 * row, 0.5, -row]);
+    }
+    for everyone in ["", "encounters = \"surroundings\"\n"] {
+        for engine in [EngineKind::EventDriven, EngineKind::Stepped] {
+            let come_to = |text: &str| {
+                let text = format!("{everyone}{text}");
+                let mut scene: Scene<f64> =
+                    SceneFile::parse("pins.toml", &text).unwrap().build().unwrap();
+                scene.engine = engine;
+                let mut world = World::new(scene, Execution::new()).unwrap();
+                world.advance(8.0).unwrap();
+                let parts = world.parts();
+                let pins = parts.iter().filter(|part| part.part > 0);
+                (state_hash(&world.bodies()), pins.map(|part| part.collisions).sum::<u64>())
+            };
+            let (hash, collisions) = come_to(&together);
+            assert_eq!((hash, collisions), come_to(&alone), "{engine:?} {everyone}");
+            assert!(collisions > 50, "{collisions}");
+        }
+    }
+}
+
+/// A crowd in a corner of a field of obstacles has cells that fold: obstacles are found by a
+/// tree, in both orders of time.
+#[test]
+fn a_crowd_in_a_corner_finds_all_obstacles() {
+    let lattice = Copies::new(FixedSphere::solid([0.0; 3], 0.4));
+    let lattice = lattice.along([2.0, 0.0, 0.0], 20).along([0.0, 2.0, 0.0], 20);
+    let lattice = lattice.along([0.0, 0.0, 2.0], 20);
+    let mut scene = Scene::<f64>::builder().engine(EngineKind::EventDriven).surroundings(lattice);
+    for k in 0..400 {
+        let place = [k % 8, k / 8 % 8, k / 64].map(|k| 0.6 + 0.11 * f64::from(k));
+        let velocity = place.map(|c: f64| 10.0 * (c - 0.99).sin());
+        scene = scene.sphere(Sphere::new(place).radius(0.05).velocity(velocity));
+    }
+    let scene = scene.build().unwrap();
+    // How far a coordinate is from the nearest centre.
+    let off = |c: f64| (c - 2.0 * (c / 2.0).round().clamp(0.0, 19.0)).powi(2);
+    let come_to = |order: Order| {
+        let execution = Execution::new().threads(1).order(order);
+        let mut world = World::new(scene.clone(), execution).unwrap();
+        let mut events = Vec::new();
+        for _ in 0..60 {
+            world.for_each_event(0.1, |event| events.push((event.time, event.a))).unwrap();
+            let bodies = world.bodies();
+            for body in 0..bodies.len() {
+                let [x, y, z] = bodies.position_of(body).to_array().map(off);
+                assert!((x + y + z).sqrt() > 0.45 - 1e-12, "{body} is in an obstacle");
+            }
+        }
+        assert!(world.collisions().surroundings > 200, "{:?}", world.collisions());
+        events
+    };
+    assert!(come_to(Order::Strict) == come_to(Order::Windows));
 }

@@ -173,8 +173,10 @@ fn gravity_of(name: &str) -> Vec3<DoubleDouble> {
 #[test]
 fn built_in_scenes_agree_with_f64() {
     for builtin in builtin_scenes() {
+        // A board of few balls has the pins of all.
+        let text = builtin.text.replace("count = 100000\narrangement", "count = 2000\narrangement");
         for engine in [EngineKind::EventDriven, EngineKind::Stepped] {
-            let mut file = SceneFile::builtin(builtin.name).unwrap();
+            let mut file = SceneFile::parse(builtin.name, &text).unwrap();
             file.engine = engine;
             let dt = file.dt.unwrap();
             let large = ["rough-gas", "free-flight", "mixture", "funnel", "hopper", "drum"];

@@ -54,6 +54,9 @@ pub(super) struct Setting<T: Real> {
     pub inverse_inertia: PerBody<T>,
 }
 
+/// Triangles of a mesh that a body looks at in a cell where it meets nothing else.
+const TILES_IN_CELL: usize = 8;
+
 impl<T: Real> Setting<T> {
     /// What a scene and its plan say, and the grid of its cells, still empty.
     pub fn new(scene: Scene<T>, mut plan: Plan, execution: Execution) -> (Self, Levels<T>) {
@@ -86,7 +89,11 @@ impl<T: Real> Setting<T> {
         let spacing = span(false).spacing(radius + radius, len);
         let bounded = features.alone().iter().filter(|feature| feature.bounds().is_some()).count();
         let is_periodic = scene.periodic.is_some();
-        let fitting = |span| Levels::fitting(span, &bodies.radius, len, bounded);
+        // Without pairs cells tell parts apart, not bodies.
+        let tiles = features.len() - features.alone().len();
+        let (crowd, parts) =
+            if plan.has_pairs { (len, bounded) } else { (0, bounded + tiles / TILES_IN_CELL) };
+        let fitting = |span| Levels::fitting(span, &bodies.radius, crowd, parts);
         // Each image of a solid without end would be near everywhere. Crowds that do not meet
         // fill no cells.
         let can_fold = plan.has_pairs && (!is_periodic || bounded == features.alone().len());
