@@ -13,7 +13,7 @@ use xxhash_rust::xxh3::xxh3_64;
 const MAGIC: [u8; 12] = *b"carom\r\n\x1a\x00\x00\x00\x00";
 
 /// The version of what is written.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 /// Bytes before the data.
 const HEAD: usize = 32;
