@@ -2,8 +2,8 @@
 //! compressed; numbers stand there as they are in memory.
 //!
 //! Pages have no checksums. Behind each group is the XXH3-64 of its bytes, and before the
-//! footer that of the footer, in eight bytes with the least significant first. Other readers
-//! pass over them: the footer says where columns are.
+//! footer a mark and that of the footer, in eight bytes with the least significant first.
+//! Other readers pass over them: the footer says where columns are.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -32,6 +32,9 @@ pub const TAIL: usize = 8;
 
 /// Bytes of a checksum.
 pub const SEAL: usize = 8;
+
+/// What stands before the checksum of a footer.
+pub const MARK: [u8; 8] = *b"carom\r\n\0";
 
 /// What the program calls itself in a footer, before its version.
 pub const PROGRAM: &str = "carom version ";
@@ -253,6 +256,7 @@ impl<W: Write> Table<W> {
     /// Writes the footer, and gives the output back.
     pub fn finish(mut self) -> io::Result<W> {
         let footer = self.kept()?;
+        self.output.write_all(&MARK)?;
         self.output.write_all(&xxh3_64(&footer).to_le_bytes())?;
         self.output.write_all(&footer)?;
         self.output.flush()?;

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 use std::sync::Arc;
 
-use parquet::basic::Compression;
+use parquet::basic::{Compression, Encoding, PageType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::{ParquetError, Result as ParquetResult};
@@ -18,7 +18,7 @@ use super::bodies::{Columns, NAMES, checked_count};
 use super::lines::finite;
 use super::zip::bytes_at;
 use super::{FramePlace, RecordedFrame, Wrong};
-use crate::output::parquet::{MAGIC, PROGRAM, SEAL, TAIL};
+use crate::output::parquet::{MAGIC, MARK, PROGRAM, SEAL, TAIL};
 use crate::scene::MOST_BODIES;
 use crate::space::PeriodicBox;
 
@@ -62,10 +62,13 @@ fn footer(file: &File) -> Result<(ParquetMetaData, bool), Wrong> {
     let size = size.iter().rev().fold(0, |size, byte| size << 8 | u64::from(*byte));
     let start = start.checked_sub(size).filter(|start| *start >= 4).ok_or_else(foreign)?;
     let bytes = bytes_at(file, start, size + TAIL as u64)?;
-    let sealed = start.checked_sub(SEAL as u64).map(|seal| bytes_at(file, seal, SEAL as u64));
-    let is_own = sealed.transpose()? == Some(xxh3_64(&bytes).to_le_bytes().to_vec());
+    let before = start.min((MARK.len() + SEAL) as u64);
+    let sealed = bytes_at(file, start - before, before)?;
+    // One damage can hit one of the two.
+    let is_own = sealed.starts_with(&MARK)
+        || bytes.windows(PROGRAM.len()).any(|text| text == PROGRAM.as_bytes());
     let place = FramePlace::Byte(start);
-    if !is_own && bytes.windows(PROGRAM.len()).any(|text| text == PROGRAM.as_bytes()) {
+    if is_own && sealed != [MARK, xxh3_64(&bytes).to_le_bytes()].as_flattened() {
         return Err(Wrong::new(place, "the footer is damaged: its checksum does not fit"));
     }
     let known = ParquetMetaDataReader::decode_metadata(&bytes[..size as usize]);
@@ -171,7 +174,9 @@ impl Rows {
         for (column, values) in columns.chain([(&self.frame, frames), (&self.time, times)]) {
             let Some(column) = *column else { continue };
             let before = values.len();
-            let read = reader.get_column_reader(column).and_then(|it| append(it, rows, values));
+            let pages = if self.is_own { Ok(()) } else { check_pages(&reader, column) };
+            let read = pages.and_then(|()| reader.get_column_reader(column));
+            let read = read.and_then(|it| append(it, rows, values));
             let name = group.column(column).column_path().string();
             let bad = |problem: String| Wrong::new(place, format!("{name}: {problem}"));
             read.map_err(|error| bad(format!("cannot be understood: {error}")))?;
@@ -225,6 +230,25 @@ fn check(file: &File, group: &RowGroupMetaData, is_own: bool) -> Result<u64, Wro
         }
     }
     Ok(start)
+}
+
+/// Checks the encodings of another program's pages: the reader panics at a dictionary that is
+/// not there, and at others that are cut.
+fn check_pages(group: &dyn RowGroupReader, column: usize) -> ParquetResult<()> {
+    let mut has_dictionary = false;
+    for page in group.get_column_page_reader(column)? {
+        let page = page?;
+        has_dictionary |= page.page_type() == PageType::DICTIONARY_PAGE;
+        match page.encoding() {
+            Encoding::PLAIN | Encoding::DELTA_BINARY_PACKED => {}
+            Encoding::PLAIN_DICTIONARY | Encoding::RLE_DICTIONARY if has_dictionary => {}
+            other => {
+                let problem = format!("its pages are in the encoding {other}; write them plain");
+                return Err(ParquetError::General(problem));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Adds the numbers of a column.
