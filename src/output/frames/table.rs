@@ -15,16 +15,16 @@ const HEADING: [&str; 3] = ["step", "time", "id"];
 
 /// The columns, without a row.
 fn columns(is_single: bool) -> Vec<Column> {
-    let heading = HEADING.map(|name| match name {
+    let heading = HEADING.iter().map(|name| match *name {
         "time" => Column::full(name, Values::Double(Vec::new())),
         _ => Column::full(name, Values::Signed(Vec::new())),
     });
-    let numbers = NUMBERS.map(|name| match is_single {
+    let numbers = NUMBERS.iter().map(|name| match is_single {
         true => Column::full(name, Values::Single(Vec::new())),
         false => Column::full(name, Values::Double(Vec::new())),
     });
-    let whole = WHOLE.map(|name| Column::full(name, Values::Short(Vec::new())));
-    heading.into_iter().chain(numbers).chain(whole).collect()
+    let whole = WHOLE.iter().map(|name| Column::full(name, Values::Short(Vec::new())));
+    heading.chain(numbers).chain(whole).collect()
 }
 
 /// Rows under way.

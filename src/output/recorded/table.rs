@@ -90,7 +90,10 @@ impl Rows {
             // A column within another one is named by both.
             schema.columns().iter().position(|column| column.path().parts() == [name])
         };
-        let places = NAMES.map(place);
+        let mut places = [None; NAMES.len()];
+        for (known, name) in places.iter_mut().zip(NAMES) {
+            *known = place(name);
+        }
         Columns::check(|name| place(name).is_some()).map_err(&whole)?;
         let corner = |name: &str| corner(&known, name).map_err(&whole);
         let space = corner("lower")?.zip(corner("upper")?);
@@ -221,7 +224,7 @@ fn check(file: &File, group: &RowGroupMetaData, is_own: bool) -> Result<u64, Wro
         start = start.min(offset);
     }
     if is_own {
-        let bytes = bytes_at(file, start, end - start + SEAL as u64)?;
+        let bytes = bytes_at(file, start, end.saturating_sub(start) + SEAL as u64)?;
         let (data, seal) = bytes.split_at(bytes.len() - SEAL);
         if xxh3_64(data).to_le_bytes() != seal {
             let problem =
