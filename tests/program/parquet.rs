@@ -105,14 +105,14 @@ fn rows_have_the_bits_of_arrays() {
 }
 
 /// Everything of frames, to be compared.
-fn told(frame: &RecordedFrame) -> String {
+fn shown(frame: &RecordedFrame) -> String {
     let RecordedFrame { time, bodies, space, images, .. } = frame;
     let columns = (&bodies.position, &bodies.velocity, &bodies.radius, &bodies.mass);
     format!("{time:?} {columns:?} {space:?} {images:?}")
 }
 
 fn frames(path: &Path) -> Vec<String> {
-    FrameReader::open(path).unwrap().map(|frame| told(&frame.unwrap())).collect()
+    FrameReader::open(path).unwrap().map(|frame| shown(&frame.unwrap())).collect()
 }
 
 #[test]
