@@ -1,6 +1,6 @@
 """Opens a run's frames with the programs that people open them with.
 
-    pip install numpy MDAnalysis vtk ovito
+    pip install numpy pyarrow MDAnalysis vtk ovito
     python docs/readers.py target/release/carom
 
 Each reader's last frame is compared with the state file.
@@ -55,7 +55,7 @@ def near(what, found, expected, tolerance):
 
 
 def main(program):
-    for ending in ["dump", "xyz", "pvd", "npz"]:
+    for ending in ["dump", "xyz", "pvd", "npz", "parquet"]:
         frames = ["--record", f"run.{ending}", "--record-every", "0.5", "--state", "end.csv"]
         subprocess.run([program, "run", "scene.toml", *frames], check=True, capture_output=True)
     with open("end.csv") as file:
@@ -70,6 +70,16 @@ def main(program):
     near("NumPy, places", last("x", "y", "z"), place, 0)
     near("NumPy, orientations", turns(last("qw", "qx", "qy", "qz")), axes, 1e-14)
     unwrapped = place + 10 * last("ix", "iy", "iz")
+
+    import pyarrow.parquet
+
+    table = pyarrow.parquet.read_table("run.parquet")
+    assert table.column_names[:3] == ["step", "time", "id"] and table.num_rows == 5 * 400
+    assert table.schema.metadata[b"upper"] == b"10.0 10.0 10.0"
+    for name in table.column_names[3:]:
+        column = table[name].to_numpy()
+        assert column.dtype == arrays[name].dtype
+        near(f"Arrow, {name}", column, arrays[name].ravel(), 0)
 
     for ending in ["csv", "npz"]:
         events = [program, "run", "scene.toml", "--events", f"events.{ending}"]

@@ -14,6 +14,8 @@ mod frames;
 #[cfg(feature = "study")]
 mod npz;
 #[cfg(feature = "study")]
+mod parquet;
+#[cfg(feature = "study")]
 mod recorded;
 mod sealed;
 mod series;
@@ -22,7 +24,7 @@ mod state;
 mod whole_file;
 
 #[cfg(feature = "study")]
-pub use arrays::{Array, write_arrays};
+pub use arrays::{Array, write_arrays, write_table};
 #[cfg(feature = "study")]
 pub use events::EventArrays;
 pub use events::{EVENT_COLUMNS, EventFilter, EventWriter};
@@ -114,7 +116,7 @@ fn is_single<T: Real>() -> io::Result<bool> {
         "f32" => Ok(true),
         "f64" => Ok(false),
         other => {
-            let problem = format!("arrays and .vtp files have no type for {other}; text has");
+            let problem = format!("arrays, .vtp and .parquet have no type for {other}; text has");
             Err(io::Error::new(io::ErrorKind::InvalidInput, problem))
         }
     }

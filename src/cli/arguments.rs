@@ -56,6 +56,7 @@ Examples:
   carom run gas.toml --events e.npz --events-from 5 --events-every 100 --events-of 0-9
                                                  some of them, as arrays of NumPy
   carom run gas.toml --record gas.dump --record-every 0.1   frames of it for OVITO
+  carom run gas.toml --record gas.parquet --record-every 0.1   a row a body and frame, for pandas
   carom run gas.toml --series gas.csv --series-every 0.1   figures of it in time
   carom run gas.toml --snapshot gas.snapshot --snapshot-wall 10   keep the run
   carom run --resume gas.snapshot --duration 20            and go on with it
@@ -146,6 +147,8 @@ Examples:
                                         a radius drawn for each scene, by its seed
   carom batch break.toml --count 1000 --observe temperature,x[0],y[0] --output b.npz
                                         figures of the end, as arrays of NumPy
+  carom batch break.toml --count 100000 --output breaks.parquet
+                                        for pandas, Polars, DuckDB or R
 
 Rows have scene, seed, what is varied, state_hash, collisions, pairs, surroundings,
 energy_change, what is observed, and failure: why a scene came to no end.
@@ -379,7 +382,8 @@ pub struct BatchArguments {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub observe: Vec<String>,
 
-    /// The table: comma-separated values, or arrays of NumPy if it ends in .npz
+    /// The table: comma-separated values, arrays of NumPy if it ends in .npz, or a table of
+    /// Parquet if it ends in .parquet
     #[arg(long, value_name = "FILE")]
     pub output: PathBuf,
 

@@ -69,7 +69,7 @@ pub fn batch(arguments: &BatchArguments) -> Result<(), Failure> {
     let seeds = seeds(&base, "--count", arguments.count)?;
     let execution = arguments.scene.execution();
     let planned = Planned { base, arguments: &arguments.scene, varied, seeds, observed, execution };
-    let is_npz = is_npz(&arguments.output)?;
+    let format = Format::of(&arguments.output)?;
     planned.check_first()?;
     let opened = OutputFile::open(&arguments.output);
     let mut output = opened.map_err(|source| Failure::Open { option: "--output", source })?;
@@ -95,7 +95,11 @@ pub fn batch(arguments: &BatchArguments) -> Result<(), Failure> {
     let in_lanes: usize = finished.iter().map(|finished| finished.in_lanes).sum();
     let rows: Vec<Row> = finished.into_iter().flat_map(|finished| finished.rows).collect();
     let table = Table { keys: planned.varied.keys(), observed: &planned.observed, rows: &rows };
-    let written = if is_npz { table.write_npz(&mut output) } else { table.write_csv(&mut output) };
+    let written = match format {
+        Format::Rows => table.write_csv(&mut output),
+        Format::Arrays => table.write_npz(&mut output),
+        Format::Parquet => table.write_parquet(&mut output),
+    };
     written.map_err(|error| output.error(error))?;
     output.finish()?;
     if let Some(kept) = kept {
@@ -119,17 +123,31 @@ fn refuse_unfit(varied: &Varied) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether the rows become arrays of NumPy.
-fn is_npz(path: &Path) -> Result<bool, Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str());
-    match ending {
-        Some("npz") => Ok(true),
-        Some("csv") => Ok(false),
-        _ if !matches!(Destination::of(path), Ok(Destination::Regular(_))) => Ok(false),
-        _ => Err(Failure::Argument(format!(
-            "--output is {}; it must end in .csv or .npz",
-            path.display()
-        ))),
+/// What the rows become.
+#[derive(Clone, Copy)]
+enum Format {
+    /// Comma-separated values.
+    Rows,
+    /// Arrays of NumPy.
+    Arrays,
+    /// A table of Parquet.
+    Parquet,
+}
+
+impl Format {
+    /// By the ending of a path; devices and pipes take rows.
+    fn of(path: &Path) -> Result<Self, Failure> {
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        match ending {
+            Some("csv") => Ok(Self::Rows),
+            Some("npz") => Ok(Self::Arrays),
+            Some("parquet") => Ok(Self::Parquet),
+            _ if !matches!(Destination::of(path), Ok(Destination::Regular(_))) => Ok(Self::Rows),
+            _ => Err(Failure::Argument(format!(
+                "--output is {}; it must end in .csv, .npz or .parquet",
+                path.display()
+            ))),
+        }
     }
 }
 

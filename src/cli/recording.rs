@@ -1,5 +1,6 @@
 //! Recording: the frames that a run writes on its way.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use carom::bodies::Bodies;
@@ -26,6 +27,8 @@ const WORDS: Words = Words { things: "frames", option: "--record", table: "recor
 pub struct Recording {
     pub asked: Asked,
     pub format: FrameFormat,
+    /// What the frames are of: names and values.
+    notes: [(&'static str, String); 2],
 }
 
 impl Recording {
@@ -55,15 +58,17 @@ impl Recording {
         }
         if file.has_flow() && format == FrameFormat::NumPy {
             let wanted = "spheres come and go, and an array has as many in each frame; give it an \
-                          ending of .dump, .lammpstrj, .xyz, .extxyz or .pvd";
+                          ending of .dump, .lammpstrj, .xyz, .extxyz, .pvd or .parquet";
             return Err(asked.refused(WORDS, file, wanted));
         }
         if is_kept && !format.goes_on() {
-            let wanted = "frames of a run that is kept by --snapshot, or that goes on by --resume, \
-                          go into a file that can be continued: .dump, .lammpstrj, .xyz or .extxyz";
+            let wanted = "arrays of NumPy are put together at the end, and frames of a run that is \
+                          kept by --snapshot, or that goes on by --resume, go into a file that can \
+                          be continued: .dump, .lammpstrj, .xyz, .extxyz, .pvd or .parquet";
             return Err(asked.refused(WORDS, file, wanted));
         }
-        Ok(Some(Self { asked, format }))
+        let notes = [("scene", file.name.clone()), ("seed", file.seed.to_string())];
+        Ok(Some(Self { asked, format, notes }))
     }
 }
 
@@ -101,6 +106,8 @@ pub struct KeptFrames {
     pub file: Option<KeptFile>,
     pace: KeptPace,
     frames: u64,
+    /// What the writer needs besides.
+    format: Vec<u8>,
 }
 
 /// Frames under way.
@@ -121,10 +128,21 @@ impl Recorder {
         kept: Option<&KeptFrames>,
     ) -> Result<Self, OutputError> {
         let path = recording.asked.path.clone();
-        let writer = match FrameWriter::new(recording.format, &path, file) {
+        let format = recording.format;
+        let writer = match kept.filter(|_| file.is_begun()) {
+            None => FrameWriter::new(format, &path, file),
+            Some(kept) => FrameWriter::resume(format, &path, file, &kept.format),
+        };
+        let mut writer = match writer {
             Ok(writer) => writer,
+            Err(gone) if gone.kind() == io::ErrorKind::NotFound => {
+                return Err(OutputError::Path { path, reason: gone.to_string() });
+            }
             Err(source) => return Err(OutputError::Write { path, source }),
         };
+        for (name, value) in &recording.notes {
+            writer.note(name, value);
+        }
         let every = recording.asked.every;
         let pace = Pace::new(world, course, every, 0.0, kept.map(|kept| kept.pace));
         let kept = kept.filter(|kept| kept.pace.is_every(every));
@@ -161,9 +179,10 @@ impl Recorder {
 
     /// Brings all frames so far to the disk, and says what is to be remembered.
     pub fn keep(&mut self) -> Result<KeptFrames, OutputError> {
-        let file = self.writer.flush().and_then(OutputFile::keep);
-        let file = file.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
-        Ok(KeptFrames { file, pace: self.pace.kept(), frames: self.frames })
+        let kept = self.writer.keep().and_then(|(file, format)| Ok((file.keep()?, format)));
+        let (file, format) =
+            kept.map_err(|source| OutputError::Write { path: self.path.clone(), source })?;
+        Ok(KeptFrames { file, pace: self.pace.kept(), frames: self.frames, format })
     }
 
     /// The file, whole but for its final name.

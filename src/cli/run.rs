@@ -134,7 +134,10 @@ fn run_in<T: Compiled>(
     }
     let record = recording.zip(outputs.record).map(|(recording, file)| {
         let kept = notes.and_then(|notes| notes.record.as_ref());
-        Recorder::new(&recording, file, &world, &course, kept)
+        Recorder::new(&recording, file, &world, &course, kept).map_err(|source| match source {
+            OutputError::Path { .. } => Failure::Open { option: "--record", source },
+            OutputError::Write { .. } => source.into(),
+        })
     });
     let series = series.zip(outputs.series).map(|(series, file)| {
         let kept = notes.and_then(|notes| notes.series.as_ref());

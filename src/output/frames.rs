@@ -6,6 +6,7 @@ mod dump;
 mod figures;
 mod paraview;
 mod rows;
+mod table;
 mod xyz;
 
 use std::io::{self, BufWriter, Write};
@@ -18,6 +19,7 @@ use crate::space::PeriodicBox;
 
 use columns::NumPy;
 use paraview::ParaView;
+use table::Rows;
 
 /// The bodies at one time of a run.
 #[derive(Clone, Copy, Debug)]
@@ -63,16 +65,18 @@ pub enum FrameFormat {
     ParaView,
     /// `.npz`: arrays of NumPy, one for each column, frames × bodies.
     NumPy,
+    /// `.parquet`: a table of Parquet, a row for each body of a frame.
+    Parquet,
 }
 
 impl FrameFormat {
     /// The endings that there are.
-    pub const ENDINGS: &'static str = ".dump, .lammpstrj, .xyz, .extxyz, .pvd or .npz";
+    pub const ENDINGS: &'static str = ".dump, .lammpstrj, .xyz, .extxyz, .pvd, .npz or .parquet";
 
     /// Whether frames can be added to a file that was closed.
     #[must_use]
     pub fn goes_on(self) -> bool {
-        matches!(self, Self::Dump | Self::Xyz)
+        self != Self::NumPy
     }
 
     /// The format of a file by its ending; `None` if it is another one.
@@ -83,6 +87,7 @@ impl FrameFormat {
             "xyz" | "extxyz" => Some(Self::Xyz),
             "pvd" => Some(Self::ParaView),
             "npz" => Some(Self::NumPy),
+            "parquet" => Some(Self::Parquet),
             _ => None,
         }
     }
@@ -114,6 +119,7 @@ enum Writer<W: io::Write> {
     Xyz(BufWriter<W>),
     ParaView(ParaView<W>),
     NumPy(Box<NumPy<W>>),
+    Parquet(Rows<W>),
 }
 
 impl<W: io::Write> FrameWriter<W> {
@@ -128,10 +134,38 @@ impl<W: io::Write> FrameWriter<W> {
             format: match format {
                 FrameFormat::Dump => Writer::Dump(buffer(output)),
                 FrameFormat::Xyz => Writer::Xyz(buffer(output)),
-                FrameFormat::ParaView => Writer::ParaView(ParaView::new(path, output)),
+                FrameFormat::ParaView => Writer::ParaView(ParaView::new(path, output)?),
                 FrameFormat::NumPy => Writer::NumPy(Box::new(NumPy::new(path, output)?)),
+                FrameFormat::Parquet => Writer::Parquet(Rows::new(output)),
             },
         })
+    }
+
+    /// Frames behind those that `output` has, of which [`keep`](Self::keep) has said
+    /// something.
+    ///
+    /// # Errors
+    /// If this is not what it has said, if a file beside it is gone, or if frames of the format
+    /// cannot [go on](FrameFormat::goes_on).
+    pub fn resume(format: FrameFormat, path: &Path, output: W, kept: &[u8]) -> io::Result<Self> {
+        match format {
+            FrameFormat::Dump | FrameFormat::Xyz => Self::new(format, path, output),
+            FrameFormat::ParaView => {
+                let series = ParaView::resume(path, output, kept)?;
+                Ok(Self { format: Writer::ParaView(series) })
+            }
+            FrameFormat::NumPy => Err(io::ErrorKind::Unsupported.into()),
+            FrameFormat::Parquet => {
+                Ok(Self { format: Writer::Parquet(Rows::resume(output, kept)?) })
+            }
+        }
+    }
+
+    /// Says something of the frames as a whole, in the format that has a place for it: Parquet.
+    pub fn note(&mut self, name: &str, value: &str) {
+        if let Writer::Parquet(rows) = &mut self.format {
+            rows.note(name, value.to_owned());
+        }
     }
 
     /// Writes one more frame.
@@ -148,21 +182,24 @@ impl<W: io::Write> FrameWriter<W> {
             Writer::Xyz(output) => xyz::write(output, frame),
             Writer::ParaView(series) => series.write(frame),
             Writer::NumPy(columns) => columns.write(frame),
+            Writer::Parquet(rows) => rows.write(frame),
         }
     }
 
-    /// Hands all frames so far on to the output, in the formats that can go on in the same
-    /// file later ([`goes_on`](FrameFormat::goes_on)).
+    /// Hands all frames so far on to the output, and says what [`resume`](Self::resume) needs to
+    /// [go on](FrameFormat::goes_on) behind them.
     ///
     /// # Errors
-    /// If the output takes no more, or the format is another one.
-    pub fn flush(&mut self) -> io::Result<&W> {
+    /// If the output takes no more, or the format cannot go on.
+    pub fn keep(&mut self) -> io::Result<(&W, Vec<u8>)> {
         match &mut self.format {
             Writer::Dump(output) | Writer::Xyz(output) => {
                 output.flush()?;
-                Ok(output.get_ref())
+                Ok((output.get_ref(), Vec::new()))
             }
-            _ => Err(io::ErrorKind::Unsupported.into()),
+            Writer::ParaView(series) => series.keep(),
+            Writer::NumPy(_) => Err(io::ErrorKind::Unsupported.into()),
+            Writer::Parquet(rows) => rows.keep(),
         }
     }
 
@@ -177,6 +214,7 @@ impl<W: io::Write> FrameWriter<W> {
             Writer::Dump(output) | Writer::Xyz(output) => whole(output),
             Writer::ParaView(series) => series.finish(),
             Writer::NumPy(columns) => columns.finish(),
+            Writer::Parquet(rows) => rows.finish(),
         }
     }
 }

@@ -4,6 +4,7 @@ mod arrays;
 mod bodies;
 mod dump;
 mod lines;
+mod table;
 mod xyz;
 mod zip;
 
@@ -20,6 +21,7 @@ use crate::space::PeriodicBox;
 
 use arrays::Arrays;
 use lines::Lines;
+use table::Rows;
 
 /// The bodies at one time of a run, as a file has them.
 #[derive(Clone, Debug)]
@@ -96,8 +98,8 @@ impl Wrong {
     }
 }
 
-/// Reads frames that a run has recorded: `.dump`, `.lammpstrj`, `.xyz`, `.extxyz` or `.npz`,
-/// as carom or another program wrote them.
+/// Reads frames that a run has recorded: `.dump`, `.lammpstrj`, `.xyz`, `.extxyz`, `.npz` or
+/// `.parquet`, as carom or another program wrote them.
 ///
 /// ```
 /// use carom::Bodies;
@@ -129,11 +131,12 @@ enum Source {
     Dump(Lines),
     Xyz(Lines),
     NumPy(Box<Arrays>),
+    Parquet(Box<Rows>),
 }
 
 impl FrameReader {
     /// What can be read.
-    pub const ENDINGS: &'static str = ".dump, .lammpstrj, .xyz, .extxyz or .npz";
+    pub const ENDINGS: &'static str = ".dump, .lammpstrj, .xyz, .extxyz, .npz or .parquet";
 
     /// Opens a file, whose ending says what it is.
     ///
@@ -145,6 +148,7 @@ impl FrameReader {
             Some(FrameFormat::Dump) => Lines::open(path).map(Source::Dump),
             Some(FrameFormat::Xyz) => Lines::open(path).map(Source::Xyz),
             Some(FrameFormat::NumPy) => Arrays::open(path).map(|it| Source::NumPy(Box::new(it))),
+            Some(FrameFormat::Parquet) => Rows::open(path).map(|it| Source::Parquet(Box::new(it))),
             _ => {
                 let problem = format!("its ending must be {}", Self::ENDINGS);
                 Err(Wrong::new(FramePlace::File, problem))
@@ -162,6 +166,7 @@ impl FrameReader {
             Source::Dump(lines) => (dump::read(lines)?, lines.place()),
             Source::Xyz(lines) => (xyz::read(lines)?, lines.place()),
             Source::NumPy(arrays) => (arrays.read()?, FramePlace::File),
+            Source::Parquet(rows) => (rows.read()?, FramePlace::File),
         };
         let Some(frame) = frame else { return Ok(None) };
         let count = frame.bodies.len();

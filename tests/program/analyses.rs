@@ -75,6 +75,13 @@ fn frames_have_what_the_run_has() {
         assert!(folder.read(&own) == folder.read(&of_frames), "{kind}");
         assert!(folder.read(&format!("run-{kind}.svg")).starts_with("<svg"));
     }
+    // So has a table, under a name of its own.
+    record("table.parquet");
+    folder.says("analyse table.parquet").well();
+    for kind in OF_FRAMES {
+        let of_frames = format!("table-{kind}.csv");
+        assert!(folder.read(&format!("run-{kind}.csv")) == folder.read(&of_frames), "{kind}");
+    }
     // Texts have all digits; a dump has no times.
     record("text.dump");
     record("text.xyz");
@@ -187,7 +194,9 @@ fn damaged_and_foreign_frames_are_refused_with_their_place() {
     assert!(message.contains("empty.npz: is no whole archive"), "{message}");
 
     let message = folder.says("analyse run.pvd").fails_with(2);
-    assert!(message.contains("its ending must be .dump, .lammpstrj, .xyz, .extxyz or .npz"));
+    assert!(
+        message.contains("its ending must be .dump, .lammpstrj, .xyz, .extxyz, .npz or .parquet")
+    );
     let message = folder.says("analyse nowhere.dump").fails_with(1);
     assert!(message.contains("nowhere.dump: cannot be read"), "{message}");
     fs::write(folder.path("empty.dump"), "").unwrap();

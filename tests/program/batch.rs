@@ -196,7 +196,7 @@ fn mistakes_are_named_before_anything_runs() {
         ("--output r.csv", "--count"),
         ("--count 0 --output r.csv", "--count"),
         ("--count 3", "--output"),
-        ("--count 3 --output r.parquet", "must end in .csv or .npz"),
+        ("--count 3 --output r.feather", "must end in .csv, .npz or .parquet"),
         ("--count 3 --output no/such/r.csv", "no/such"),
         ("--count 3 --output r.csv --vary radius", "KEY=a,b,c"),
         ("--count 3 --output r.csv --vary spheres[0].radus=1,2", "radus is not a key"),

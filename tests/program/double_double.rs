@@ -111,6 +111,7 @@ fn what_it_does_not_take_is_refused() {
         ("run scene.toml --state s.npz", "no type for dd"),
         ("run scene.toml --state s.pvd", "no type for dd"),
         ("run scene.toml --record r.npz --record-every 0.1", "no type for dd"),
+        ("run scene.toml --record r.parquet --record-every 0.1", "no type for dd"),
         ("run scene.toml --record r.pvd --record-every 0.1", "give it an ending of .dump"),
     ] {
         let message = folder.says(&format!("{arguments} --precision dd")).fails_with(2);

@@ -121,6 +121,20 @@ fn a_limit_of_a_file_leaves_the_old_one() {
     assert!(message.contains("events.csv could not be written to its end"), "{message}");
     assert_eq!(folder.names(), ["events.csv", "scene.toml"]);
     assert_eq!(folder.read("events.csv"), "old");
+    // A table under way, and the rest of one at the end; one that is kept ends with its run.
+    fs::write(folder.path("run.parquet"), "old").unwrap();
+    for (every, kept) in [("1e-4", ""), ("0.1", ""), ("1e-4", "--snapshot kept.snapshot")] {
+        let run = format!(
+            "run scene.toml --engine event-driven --record run.parquet --record-every {every} {kept}"
+        );
+        let script = format!("ulimit -f 8; exec {} {run}", env!("CARGO_BIN_EXE_carom"));
+        let output =
+            Command::new("sh").args(["-c", &script]).current_dir(folder.folder.path()).output();
+        let message = Said::from(output.unwrap()).fails_with(1);
+        assert!(message.contains("run.parquet could not be written to its end"), "{message}");
+        assert_eq!(folder.names(), ["events.csv", "run.parquet", "scene.toml"]);
+        assert_eq!(folder.read("run.parquet"), "old");
+    }
 }
 
 /// Runs a line of a shell in a folder.

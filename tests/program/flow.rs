@@ -111,6 +111,7 @@ fn what_needs_the_same_spheres_throughout_says_so() {
     let refused = |arguments: &str| folder.says(arguments).fails_with(2);
     let message = refused("run scene.toml --record run.npz --record-every 1");
     assert!(message.contains("spheres come and go") && message.contains(".dump"), "{message}");
+    folder.says("run scene.toml --record run.parquet --record-every 0.05").well();
     let message = refused("batch scene.toml --count 2 --output rows.csv");
     assert!(message.contains("spheres come or go") && message.contains("a batch"), "{message}");
     let message = refused("study error scene.toml");

@@ -60,9 +60,13 @@ fn frames_change_no_bit_of_a_run() {
                 "run scene.toml --json --engine {engine} --precision {precision} --duration 0.7"
             );
             let plain = folder.says(&format!("{run} --events plain.csv")).summary();
-            for (ending, every) in
-                [("dump", "0.1"), ("lammpstrj", "0.7"), ("xyz", "0.033"), ("npz", "0.2")]
-            {
+            for (ending, every) in [
+                ("dump", "0.1"),
+                ("lammpstrj", "0.7"),
+                ("xyz", "0.033"),
+                ("npz", "0.2"),
+                ("parquet", "0.03"),
+            ] {
                 let with = folder.says(&format!(
                     "{run} --events with.csv --record frames.{ending} --record-every {every}"
                 ));
@@ -228,7 +232,7 @@ fn numbers_that_stop_being_one_are_all_there() {
 }
 
 /// The entries of an archive, by its local headers: name and bytes.
-fn entries(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+pub fn entries(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let mut reader = Cursor::new(bytes);
     let mut entries = Vec::new();
     loop {
@@ -308,11 +312,11 @@ fn what_cannot_be_recorded_is_refused() {
         }
         assert_eq!(folder.names(), ["scene.toml"], "{message}");
     };
-    let endings = ".dump, .lammpstrj, .xyz, .extxyz, .pvd or .npz";
+    let endings = ".dump, .lammpstrj, .xyz, .extxyz, .pvd, .npz or .parquet";
     refused(BOX, "--record a.vtk --record-every 1", &["--record is a.vtk", endings]);
     refused(BOX, "--record a --record-every 1", &["--record is a", endings]);
     refused(BOX, "--state end.vtk", &["--state is end.vtk", ".csv, ", endings]);
-    refused(BOX, "--record a.parquet --record-every 1", &["--record is a.parquet", endings]);
+    refused(BOX, "--record a.feather --record-every 1", &["--record is a.feather", endings]);
     refused(BOX, "--record a.dump", &["no time between them", "--record-every TIME"]);
     refused(BOX, "--record-every 1", &["no file", "--record FILE"]);
     refused(BOX, "--record-every 1e-12 --record a.xyz", &["frames every 1e-12", "--record-every"]);

@@ -11,6 +11,7 @@ mod files;
 mod flow;
 mod frames;
 mod measured;
+mod parquet;
 mod series;
 mod snapshots;
 mod sound;

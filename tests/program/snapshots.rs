@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use carom::output::FrameReader;
+
 use crate::{BOX, FLUID, Folder};
 
 /// What is written on the way, by name of the file.
@@ -73,6 +75,50 @@ fn a_run_cut_in_three_is_one_run() {
     }
 }
 
+/// The frames of a table.
+fn frames(folder: &Folder, name: &str) -> Vec<String> {
+    let frames = FrameReader::open(&folder.path(name)).unwrap().map(Result::unwrap);
+    frames.map(|frame| format!("{:?} {:?} {:?}", frame.time, frame.bodies, frame.images)).collect()
+}
+
+#[test]
+fn series_and_tables_of_frames_go_on() {
+    for (scene, engine) in [(BOX, "stepped"), (FLUID, "event-driven")] {
+        for precision in ["f32", "f64"] {
+            let folder = Folder::with(scene);
+            let start = format!("run scene.toml --engine {engine} --precision {precision}");
+            let record = |name: &str| format!("--record {name} --record-every 0.11");
+            folder.says(&format!("{start} --duration 0.9 {}", record("whole.pvd"))).well();
+            folder.says(&format!("{start} --duration 0.9 {}", record("whole.parquet"))).well();
+            for ending in ["pvd", "parquet"] {
+                let kept = format!("{} --snapshot kept", record(&format!("cut.{ending}")));
+                folder.says(&format!("{start} --duration 0.3 {kept}")).well();
+                folder.says(&format!("run --resume kept --duration 0.54 {kept}")).well();
+                fs::copy(folder.path("kept"), folder.path("second")).unwrap();
+                folder.says(&format!("run --resume kept --duration 0.9 {kept}")).well();
+                // Again, from before, behind the end that is there.
+                folder.says(&format!("run --resume second --duration 0.9 {kept}")).well();
+            }
+            assert_eq!(folder.read("cut.pvd"), folder.read("whole.pvd").replace("whole", "cut"));
+            for number in 0..9 {
+                let read = |name: &str| folder.read(&format!("{name}_{number:06}.vtp"));
+                assert!(read("cut") == read("whole"), "{engine} {precision}: {number}");
+            }
+            let whole = frames(&folder, "whole.parquet");
+            assert_eq!(whole.len(), 9);
+            assert!(frames(&folder, "cut.parquet") == whole, "{engine} {precision}");
+            assert!(!folder.names().iter().any(|name| name.ends_with(".part")));
+            // A frame that is gone is missed.
+            let record = record("cut.pvd");
+            folder.says(&format!("{start} --duration 0.5 {record} --snapshot second")).well();
+            let go_on = format!("run --resume second --duration 0.9 {record}");
+            fs::remove_file(folder.path("cut_000001.vtp")).unwrap();
+            let message = folder.says(&go_on).fails_with(2);
+            assert!(message.contains("cut_000001.vtp is no longer there"), "{message}");
+        }
+    }
+}
+
 #[test]
 fn the_summary_of_a_run_that_goes_on_is_that_of_the_whole() {
     let folder = Folder::with(FLUID);
@@ -122,7 +168,7 @@ fn what_is_no_snapshot_is_told_apart() {
     refused(&changed, "is damaged");
     changed.clone_from(&whole);
     changed[12] += 1;
-    refused(&changed, "is a snapshot of version 7");
+    refused(&changed, "is a snapshot of version 8");
     let message = folder.says("run --resume no.snapshot").fails_with(2);
     assert!(message.contains("no.snapshot: it cannot be read"), "{message}");
 }
@@ -146,7 +192,8 @@ fn what_cannot_go_on_is_refused() {
     refused(&format!("{go_on} --dt 0.1 --duration 1"), &["--dt", "cannot be used with"]);
     refused(&format!("{go_on} --set seed=1"), &["--set", "cannot be used with"]);
     let frames = "--record a.npz --record-every 0.1";
-    refused(&format!("{go_on} --duration 1 {frames}"), &["--record is a.npz", ".dump"]);
+    let words = ["--record is a.npz", "put together at the end", ".dump", ".parquet"];
+    refused(&format!("{go_on} --duration 1 {frames}"), &words);
     refused(&format!("run scene.toml --snapshot a {frames}"), &["--record is a.npz", ".dump"]);
     refused("run scene.toml --snapshot-every 1", &["no file; give --snapshot FILE"]);
     refused("run scene.toml --snapshot scene.toml", &["--snapshot", "scene file"]);

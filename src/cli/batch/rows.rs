@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use carom::output::{Array, write_arrays};
+use carom::output::{Array, write_arrays, write_table};
 use carom::study::table::digits;
 use serde::{Deserialize, Serialize};
 
@@ -78,46 +78,60 @@ impl Table<'_> {
         table.flush()
     }
 
-    /// As arrays of NumPy: where a scene has no figure, 0 of whole ones and `nan` of others.
+    /// As arrays of NumPy, the hash as a whole number.
     pub fn write_npz(&self, output: impl Write) -> io::Result<()> {
-        let whole = |of: &dyn Fn(&Row) -> Option<u64>| {
-            Array::Whole(self.rows.iter().map(|row| of(row).unwrap_or(0)).collect())
+        let hash = |row: &Row| {
+            let digits = row.state_hash.as_ref()?.strip_prefix("0x")?;
+            u64::from_str_radix(digits, 16).ok()
         };
-        let numbers = |of: &dyn Fn(&Row) -> Option<f64>| {
-            Array::Numbers(self.rows.iter().map(|row| of(row).unwrap_or(f64::NAN)).collect())
-        };
-        let texts = |of: &dyn Fn(&Row) -> Option<String>| {
-            Array::Texts(self.rows.iter().map(|row| of(row).unwrap_or_default()).collect())
-        };
+        write_arrays(output, &self.columns(self.whole(hash))).map(drop)
+    }
+
+    /// As a table of Parquet, the hash as a text.
+    pub fn write_parquet(&self, output: impl Write) -> io::Result<()> {
+        let hash = self.texts(|row| row.state_hash.clone());
+        write_table(output, &self.columns(hash)).map(drop)
+    }
+
+    fn whole(&self, of: impl Fn(&Row) -> Option<u64>) -> Array {
+        Array::Whole(self.rows.iter().map(of).collect())
+    }
+
+    fn numbers(&self, of: impl Fn(&Row) -> Option<f64>) -> Array {
+        Array::Numbers(self.rows.iter().map(of).collect())
+    }
+
+    fn texts(&self, of: impl Fn(&Row) -> Option<String>) -> Array {
+        Array::Texts(self.rows.iter().map(of).collect())
+    }
+
+    /// The columns of all formats with types, with this one of hashes.
+    fn columns(&self, hashes: Array) -> Vec<(String, Array)> {
         let mut columns = vec![
-            ("scene".to_owned(), whole(&|row| Some(row.scene))),
-            ("seed".to_owned(), whole(&|row| Some(row.seed))),
+            ("scene".to_owned(), self.whole(|row| Some(row.scene))),
+            ("seed".to_owned(), self.whole(|row| Some(row.seed))),
         ];
         for (k, key) in self.keys.iter().enumerate() {
             let value = |row: &Row| row.values[k].parse().ok();
             let are_numbers = self.rows.iter().all(|row| value(row).is_some());
             let column = match are_numbers {
-                true => numbers(&value),
-                false => texts(&|row| Some(row.values[k].clone())),
+                true => self.numbers(value),
+                false => self.texts(|row| Some(row.values[k].clone())),
             };
             columns.push(((*key).to_owned(), column));
         }
-        let hash = |row: &Row| {
-            let digits = row.state_hash.as_ref()?.strip_prefix("0x")?;
-            u64::from_str_radix(digits, 16).ok()
-        };
         let [state_hash, collisions, pairs, surroundings, energy_change] = FIGURES;
         columns.extend([
-            (state_hash.to_owned(), whole(&hash)),
-            (collisions.to_owned(), whole(&Row::collisions)),
-            (pairs.to_owned(), whole(&|row| row.pairs)),
-            (surroundings.to_owned(), whole(&|row| row.surroundings)),
-            (energy_change.to_owned(), numbers(&|row| row.energy_change)),
+            (state_hash.to_owned(), hashes),
+            (collisions.to_owned(), self.whole(Row::collisions)),
+            (pairs.to_owned(), self.whole(|row| row.pairs)),
+            (surroundings.to_owned(), self.whole(|row| row.surroundings)),
+            (energy_change.to_owned(), self.numbers(|row| row.energy_change)),
         ]);
         for (k, observed) in self.observed.iter().enumerate() {
-            columns.push((observed.name.clone(), numbers(&|row| row.observed(k))));
+            columns.push((observed.name.clone(), self.numbers(|row| row.observed(k))));
         }
-        columns.push(("failure".to_owned(), texts(&|row| row.failure.clone())));
-        write_arrays(output, &columns).map(drop)
+        columns.push(("failure".to_owned(), self.texts(|row| row.failure.clone())));
+        columns
     }
 }

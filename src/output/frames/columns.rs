@@ -4,20 +4,13 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::Frame;
-use super::figures::quaternion_of;
+use super::figures::{NUMBERS, WHOLE, quaternion_of};
 use crate::bodies::PerBody;
 use crate::numbers::array::Each;
 use crate::observe::species;
 use crate::output::is_single;
 use crate::output::npz::{Archive, NpzColumn, store_array};
 use crate::real::Real;
-
-/// The names of the columns of numbers.
-const NUMBERS: [&str; 15] =
-    ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "qw", "qx", "qy", "qz", "radius", "mass"];
-
-/// The names of the columns of whole numbers.
-const WHOLE: [&str; 4] = ["ix", "iy", "iz", "type"];
 
 /// Arrays under way.
 #[derive(Debug)]

@@ -6,6 +6,13 @@ use crate::mat3::Mat3;
 use crate::numbers::array::Each;
 use crate::real::Real;
 
+/// The names of columns of numbers, in formats that have them.
+pub const NUMBERS: [&str; 15] =
+    ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz", "qw", "qx", "qy", "qz", "radius", "mass"];
+
+/// The names of columns of whole numbers.
+pub const WHOLE: [&str; 4] = ["ix", "iy", "iz", "type"];
+
 /// The corners of the periodic box, or of the box around all bodies.
 pub fn bounds<T: Real>(frame: &Frame<'_, T>) -> [[T; 3]; 2] {
     if let Some(space) = frame.space {

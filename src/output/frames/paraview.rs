@@ -16,13 +16,19 @@ use crate::numbers::array::Each;
 use crate::observe::species;
 use crate::real::Real;
 
+/// What a series begins with.
+const HEAD: &str = "<?xml version=\"1.0\"?>\n\
+                    <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  \
+                    <Collection>\n";
+
 /// A series under way. The files of its frames are whole one by one; if the series does
-/// not come to its end, they go.
+/// not come to its end, they go, but for those that were kept.
 #[derive(Debug)]
 pub struct ParaView<W> {
     path: PathBuf,
     output: W,
-    entries: String,
+    /// Frames that were kept.
+    kept: usize,
     frames: Vec<Unfinished>,
 }
 
@@ -43,44 +49,70 @@ impl Drop for Unfinished {
 }
 
 impl<W: io::Write> ParaView<W> {
-    pub fn new(path: &Path, output: W) -> Self {
-        Self { path: path.to_path_buf(), output, entries: String::new(), frames: Vec::new() }
+    pub fn new(path: &Path, mut output: W) -> io::Result<Self> {
+        output.write_all(HEAD.as_bytes())?;
+        Ok(Self { path: path.to_path_buf(), output, kept: 0, frames: Vec::new() })
+    }
+
+    /// Frames behind those of a series that was kept.
+    pub fn resume(path: &Path, output: W, kept: &[u8]) -> io::Result<Self> {
+        let kept = str::from_utf8(kept).ok().and_then(|kept| kept.parse().ok());
+        let kept = kept.ok_or(io::ErrorKind::InvalidData)?;
+        let series = Self { path: path.to_path_buf(), output, kept, frames: Vec::new() };
+        let gone = (0..kept).map(|number| series.frame(number)).find(|path| !path.exists());
+        gone.map_or(Ok(series), |gone| {
+            let reason = format!("its frame {} is no longer there", gone.display());
+            Err(io::Error::new(io::ErrorKind::NotFound, reason))
+        })
+    }
+
+    /// The file of a frame.
+    fn frame(&self, number: usize) -> PathBuf {
+        let mut name = self.path.file_stem().map_or_else(OsString::new, OsString::from);
+        name.push(format!("_{number:06}.vtp"));
+        self.path.with_file_name(name)
     }
 
     /// Writes one frame into a file of its own.
     pub fn write<T: Real>(&mut self, frame: &Frame<'_, T>) -> io::Result<()> {
         is_single::<T>()?;
-        let mut name = self.path.file_stem().map_or_else(OsString::new, OsString::from);
-        name.push(format!("_{:06}.vtp", self.frames.len()));
-        let path = self.path.with_file_name(&name);
+        let path = self.frame(self.kept + self.frames.len());
         let mut file = WholeFile::beside(&path)?;
         // Only names that are text can stand in XML.
-        let name = escaped(name.to_str().ok_or(io::ErrorKind::InvalidFilename)?);
+        let name = path.file_name().and_then(|name| name.to_str());
+        let name = escaped(name.ok_or(io::ErrorKind::InvalidFilename)?);
         write_points(&mut io::BufWriter::with_capacity(1 << 18, &mut file), frame)?;
         file.finish()?;
         self.frames.push(Unfinished { listed: Some(Listed::new(path.clone())), path });
-        let time = frame.time;
-        self.entries.push_str(&format!(
-            "    <DataSet timestep=\"{time:?}\" group=\"\" part=\"0\" file=\"{name}\"/>\n"
-        ));
-        Ok(())
+        let entry = format!(
+            "    <DataSet timestep=\"{:?}\" group=\"\" part=\"0\" file=\"{name}\"/>\n",
+            frame.time
+        );
+        self.output.write_all(entry.as_bytes())
+    }
+
+    /// Lets the frames so far stay, and returns what [`resume`](Self::resume) needs: how many
+    /// they are.
+    pub fn keep(&mut self) -> io::Result<(&W, Vec<u8>)> {
+        self.output.flush()?;
+        self.stay();
+        Ok((&self.output, self.kept.to_string().into_bytes()))
+    }
+
+    fn stay(&mut self) {
+        self.kept += self.frames.len();
+        for frame in &mut self.frames {
+            frame.listed = None;
+        }
+        self.frames.clear();
     }
 
     /// Writes the series itself.
-    pub fn finish(self) -> io::Result<W> {
-        let Self { mut output, entries, mut frames, .. } = self;
-        output.write_all(
-            b"<?xml version=\"1.0\"?>\n\
-              <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  \
-              <Collection>\n",
-        )?;
-        output.write_all(entries.as_bytes())?;
-        output.write_all(b"  </Collection>\n</VTKFile>\n")?;
-        output.flush()?;
-        for frame in &mut frames {
-            frame.listed = None;
-        }
-        Ok(output)
+    pub fn finish(mut self) -> io::Result<W> {
+        self.output.write_all(b"  </Collection>\n</VTKFile>\n")?;
+        self.output.flush()?;
+        self.stay();
+        Ok(self.output)
     }
 }
 

@@ -31,7 +31,7 @@ fn number(bytes: &[u8], at: usize, size: usize) -> Option<u64> {
 }
 
 /// Bytes of a file.
-pub fn bytes_at(file: &mut File, start: u64, size: u64) -> Result<Vec<u8>, Wrong> {
+pub fn bytes_at(mut file: &File, start: u64, size: u64) -> Result<Vec<u8>, Wrong> {
     let place = FramePlace::Byte(start);
     let mut read = || -> io::Result<Vec<u8>> {
         file.seek(SeekFrom::Start(start))?;
