@@ -7,6 +7,7 @@ mod asked;
 mod batch;
 mod boxes;
 mod closed_output;
+mod completions;
 mod conclusion;
 mod events;
 mod explain;
@@ -56,6 +57,7 @@ pub fn main() -> ExitCode {
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
             Some(Command::Batch(arguments)) => batch::batch(&arguments),
             Some(Command::Study { study }) => study.run(),
+            Some(Command::Completions { shell }) => completions::completions(shell),
         },
         Err(answer) => return answered(&answer),
     };

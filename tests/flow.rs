@@ -306,8 +306,9 @@ fn spheres_come_at_their_times() {
         assert_eq!(counts, [1, 1, 2, 2, 3, 3, 3, 3], "{engine:?}");
         let heights: Vec<f64> = (0..3).map(|body| world.bodies().position_of(body).z).collect();
         assert_eq!(heights, [-7.0, -5.0, -3.0], "{engine:?}");
-        let Exchange { came, waits, .. } = world.exchange();
+        let Exchange { came, waits, mass_time, .. } = world.exchange();
         assert_eq!((came.spheres, came.mass, came.energy, waits), (3, 6.0, 12.0, 0));
+        assert_eq!(mass_time, (6.0, 2.5), "{engine:?}");
         assert_eq!(came.momentum, [0.0, 0.0, -12.0]);
     }
 }

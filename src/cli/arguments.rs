@@ -9,6 +9,7 @@ use carom::scene::EngineKind;
 use carom::scene::{AnalysisKind, DEFAULT_SCENE, Precision};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 
 use super::analyse::KINDS;
 use super::events::bodies;
@@ -168,6 +169,16 @@ interrupted study goes on where it was when it is started again.")]
     Study {
         #[command(subcommand)]
         study: StudyCommand,
+    },
+    /// Print what a shell needs to complete commands and options.
+    #[command(after_help = "\
+Examples:
+  carom completions bash > ~/.local/share/bash-completion/completions/carom
+  carom completions zsh > ~/.zfunc/_carom      in a folder of $fpath
+  carom completions fish > ~/.config/fish/completions/carom.fish")]
+    Completions {
+        /// The shell.
+        shell: Shell,
     },
 }
 

@@ -287,6 +287,7 @@ impl Flow {
         }
         if self.next() <= time {
             self.bring_in(&mut change, &mut state, time);
+            state.mass = None;
         }
         apply(change).map_err(|error| match error {
             ChangeError::Engine(error) => error,

@@ -95,3 +95,18 @@ fn standard_output_holds_a_file_and_nothing_else() {
     assert_eq!(folder.read("out.csv").lines().count(), 21);
     assert_eq!(folder.names(), ["out.csv", "scene.toml"]);
 }
+
+/// Shells complete commands and options.
+#[test]
+fn shells_are_told_what_to_complete() {
+    let folder = Folder::with(BOX);
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = folder.says(&format!("completions {shell}")).well();
+        for word in ["carom", "sweep", "--record-every", "completions"] {
+            let word = if shell == "fish" { word.trim_start_matches('-') } else { word };
+            assert!(script.contains(word), "{shell}: no {word}");
+        }
+    }
+    let error = folder.says("completions tcsh").fails_with(2);
+    assert!(error.contains("fish"), "{error}");
+}

@@ -421,7 +421,7 @@ fn shapes_that_cannot_be() {
     assert_eq!(
         shape("shape = \"plane\"\nhole = [0, 0, 1]"),
         "s.toml:4: surroundings[0].hole is not a key that means something here; known are \
-         `shape`, `point`, `normal`, `lower`, `upper`, `vertices`, `triangles`, `origin`, `spacing`, `columns`, `rows`, `heights`, `file`, `a`, `b`, `apex`, `slope`, `inner`, `outer`, `base`, `half_height`, `height`, `radius`, `top_radius`, `major`, `minor`, `center`, `axis`, `profile`, `closed`, `inside`, `name`, `sensor`, `removes`, `translation`, `rotation`, `scale`"
+         `shape`, `point`, `normal`, `lower`, `upper`, `vertices`, `triangles`, `origin`, `spacing`, `columns`, `rows`, `heights`, `file`, `range`, `a`, `b`, `apex`, `slope`, `inner`, `outer`, `base`, `half_height`, `height`, `radius`, `top_radius`, `major`, `minor`, `center`, `axis`, `profile`, `closed`, `inside`, `name`, `copies`, `sensor`, `removes`, `translation`, `rotation`, `scale`"
     );
     assert_eq!(
         shape("shape = \"sphere\"\ncenter = 3"),

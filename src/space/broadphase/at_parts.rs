@@ -122,8 +122,10 @@ impl<T: Real, P: FixedParts<T> + ?Sized> PartSearch<'_, T, P> {
                 self.parts.for_each_near(bounds, &mut keep);
             }
         }
-        // Part by part, as they stand in memory.
-        found.sort_unstable();
+        // Part by part, as they stand in memory; by one number, which is compared at once.
+        found.sort_unstable_by_key(|&(part, body, image)| {
+            u128::from(part) << 64 | u128::from(body) << 32 | u128::from(image)
+        });
         for images in found.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             let (part, body, _) = images[0];
             let slot = body as usize;
