@@ -59,10 +59,10 @@ fn cells(row: &Row) -> [String; 8] {
         row.engine.to_owned(),
         optional(row.times.map(|t| format!("{:.1}", t.nanoseconds))),
         optional(row.times.map(|t| format!("{:.2}", t.ratio))),
-        optional(row.times.zip(collisions).map(|(times, (energy, collisions))| {
+        optional(row.times.zip(collisions).and_then(|(times, (energy, collisions))| {
             let steps = energy.steps as f64 * row.bodies as f64;
             let all = collisions.pairs + collisions.surroundings;
-            format!("{:.2}", 1e-3 * times.nanoseconds * steps / all as f64)
+            (all > 0).then(|| format!("{:.2}", 1e-3 * times.nanoseconds * steps / all as f64))
         })),
         optional(collisions.map(|(_, collisions)| per_sphere(collisions, row.bodies))),
         optional(row.energy.map(energy)) + row.result.as_str(),
