@@ -137,10 +137,9 @@ mod tests {
         let mut edges = HashMap::new();
         let mut volume = 0.0;
         for [a, b, c] in triangles {
-            for (edge, way) in [([a, b], 1), ([b, c], 1), ([c, a], 1)] {
-                let [from, to] = edge;
-                let sign = if from < to { way } else { -way };
-                *edges.entry([from.min(to), from.max(to)]).or_insert(0) += sign;
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                let way = if from < to { 1 } else { -1 };
+                *edges.entry([from.min(to), from.max(to)]).or_insert(0) += way;
             }
             let [p, q, r] = [a, b, c].map(|k| vertices[k as usize]);
             volume += p[0] * (q[1] * r[2] - q[2] * r[1])

@@ -97,7 +97,6 @@ macro_rules! rapier_adapter {
                     world.gravity = Vector::new(0.0, 0.0, scene.gravity as Real);
                     world.integration_parameters = parameters(scene, settings);
                     use_threads(&mut world, threads)?;
-                    let alone = scene.encounters == Encounters::Surroundings;
                     for wall in walls(&scene.surroundings, settings)? {
                         world.insert_collider(smooth(wall), None);
                     }
@@ -114,8 +113,10 @@ macro_rules! rapier_adapter {
                                 .gyroscopic_forces_enabled(false);
                             let ball = ColliderBuilder::ball(RADIUS as Real).mass(1.0);
                             if scene.encounters != Encounters::None {
-                                let groups =
-                                    if alone { not_each_other() } else { InteractionGroups::all() };
+                                let groups = match scene.encounters {
+                                    Encounters::All => InteractionGroups::all(),
+                                    _ => not_each_other(),
+                                };
                                 world.insert(body, smooth(ball).collision_groups(groups)).0
                             } else {
                                 let mass = ball.build().mass_properties();
