@@ -1,20 +1,20 @@
-//! carom as a peer: its stepped engine in both precisions.
+//! carom as a peer: both engines, in both precisions.
 
 use std::cell::OnceCell;
 use std::error::Error;
 
 use carom::bodies::{Bodies, BodiesError, PerBody};
-use carom::engine::{Compiled, Execution, Stepped};
+use carom::engine::{self, Compiled, Execution};
 use carom::motion::Integrator;
-use carom::scene::{self, Encounters};
-use carom::scene::{Impact, OrientationUpdate};
-use carom::surroundings::{Cuboid, Plane};
+use carom::scene::{self, EngineKind, Impact, OrientationUpdate};
+use carom::surroundings::{Cuboid, Mesh, MeshError, Plane};
 use carom::vec3::Vec3;
 
+use crate::mesh;
 use crate::peer::{Collisions, Peer, PeerError, Precision, World};
-use crate::scene::{RADIUS, Scene, Sphere, Surroundings};
+use crate::scene::{Encounters, RADIUS, Scene, Sphere, Surroundings};
 
-/// How carom's stepped engine is set.
+/// How carom is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Settings {
     /// As it comes: contacts where bodies overlap at the end of a step,
@@ -23,6 +23,8 @@ enum Settings {
     /// Contacts at their time inside the step, velocity Verlet, and
     /// orientations turned in every step.
     SubStep,
+    /// No steps: from collision to collision.
+    EventDriven,
 }
 
 /// Moments of inertia of the solid spheres of mass 1.
@@ -50,21 +52,23 @@ impl Peer for Carom {
 
     fn world(&self, scene: &Scene, threads: usize) -> Result<Box<dyn World>, PeerError> {
         let world = match self.precision {
-            Precision::F32 => boxed::<f32>(scene, threads, self.settings),
-            Precision::F64 => boxed::<f64>(scene, threads, self.settings),
+            Precision::F32 => self.boxed::<f32>(scene, threads),
+            Precision::F64 => self.boxed::<f64>(scene, threads),
         };
         world.map_err(|error| PeerError::Engine { engine: self.name, message: error.to_string() })
     }
 }
 
-fn boxed<T: Compiled>(
-    scene: &Scene,
-    threads: usize,
-    settings: Settings,
-) -> Result<Box<dyn World>, Box<dyn Error>> {
-    let execution = Execution::new().threads(threads);
-    let engine = Stepped::<T>::with_execution(translated(scene, settings)?, execution)?;
-    Ok(Box::new(CaromWorld { engine, bodies: OnceCell::new() }))
+impl Carom {
+    fn boxed<T: Compiled>(
+        &self,
+        scene: &Scene,
+        threads: usize,
+    ) -> Result<Box<dyn World>, Box<dyn Error>> {
+        let execution = Execution::new().threads(threads);
+        let world = engine::World::<T>::new(translated(scene, self.settings)?, execution)?;
+        Ok(Box::new(CaromWorld { name: self.name, world, dt: scene.dt, bodies: OnceCell::new() }))
+    }
 }
 
 /// The scene as carom has it.
@@ -75,26 +79,40 @@ fn translated<T: Compiled>(
     let real = T::from_f64;
     let mut builder = scene::Scene::builder()
         .gravity([T::ZERO, T::ZERO, real(scene.gravity)])
-        .encounters(if scene.collisions { Encounters::All } else { Encounters::None })
+        .encounters(match scene.encounters {
+            Encounters::None => scene::Encounters::None,
+            Encounters::Surroundings => scene::Encounters::Surroundings,
+            Encounters::All => scene::Encounters::All,
+        })
         .dt(scene.dt)
         .impact(Impact::EndOfStep)
         .integrator(Integrator::SemiImplicitEuler)
         .bodies(bodies(&scene.spheres)?);
-    builder = match scene.surroundings {
+    builder = match &scene.surroundings {
         Surroundings::None => builder,
         Surroundings::Floor => builder
             .surroundings(Plane { point: Vec3::ZERO, normal: [T::ZERO, T::ZERO, T::ONE].into() }),
         Surroundings::Container { side } => {
-            builder.surroundings(Cuboid::container([T::ZERO; 3], [real(side); 3]))
+            builder.surroundings(Cuboid::container([T::ZERO; 3], [real(*side); 3]))
         }
+        Surroundings::FlatMesh(mesh) => builder.surroundings(triangles(mesh)?),
+        Surroundings::Terrain(terrain) => builder.surroundings(triangles(&terrain.mesh)?),
     };
-    if settings == Settings::SubStep {
-        builder = builder
+    builder = match settings {
+        Settings::Defaults => builder.engine(EngineKind::Stepped),
+        Settings::SubStep => builder
+            .engine(EngineKind::Stepped)
             .impact(Impact::SubStep)
             .integrator(Integrator::VelocityVerlet)
-            .orientation(OrientationUpdate::EachStep);
-    }
+            .orientation(OrientationUpdate::EachStep),
+        Settings::EventDriven => builder.engine(EngineKind::EventDriven),
+    };
     Ok(builder.build()?)
+}
+
+fn triangles<T: Compiled>(mesh: &mesh::Mesh) -> Result<Mesh<T>, MeshError> {
+    let vertices: Vec<[T; 3]> = mesh.vertices.iter().map(|v| v.map(T::from_f64)).collect();
+    Mesh::new(&vertices, &mesh.triangles)
 }
 
 fn bodies<T: Compiled>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
@@ -111,28 +129,38 @@ fn bodies<T: Compiled>(spheres: &[Sphere]) -> Result<Bodies<T>, BodiesError> {
 }
 
 struct CaromWorld<T: Compiled> {
-    engine: Stepped<T>,
+    name: &'static str,
+    world: engine::World<T>,
+    dt: f64,
     /// All bodies after the last step, once one has been asked for.
     bodies: OnceCell<Bodies<T>>,
 }
 
 impl<T: Compiled> CaromWorld<T> {
     fn bodies(&self) -> &Bodies<T> {
-        self.bodies.get_or_init(|| self.engine.bodies())
+        self.bodies.get_or_init(|| self.world.bodies())
     }
 }
 
 impl<T: Compiled> World for CaromWorld<T> {
     fn advance(&mut self, steps: usize) -> Result<(), PeerError> {
         self.bodies.take();
-        self.engine.advance_steps(steps as u64);
+        match &mut self.world {
+            engine::World::Stepped(world) => world.advance_steps(steps as u64),
+            engine::World::EventDriven(world) => {
+                world.advance(steps as f64 * self.dt).map_err(|error| PeerError::Engine {
+                    engine: self.name,
+                    message: error.to_string(),
+                })?;
+            }
+        }
         Ok(())
     }
 
     fn advance_counted(&mut self, steps: usize) -> Result<Option<Collisions>, PeerError> {
-        let before = self.engine.collisions();
+        let before = self.world.collisions();
         self.advance(steps)?;
-        let after = self.engine.collisions();
+        let after = self.world.collisions();
         Ok(Some(Collisions {
             pairs: after.pairs - before.pairs,
             surroundings: after.surroundings - before.surroundings,
@@ -176,15 +204,35 @@ fn quaternion([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [f64; 9]) -> [f64; 4] {
     products[greatest].map(|product| product * scale)
 }
 
-/// carom in both precisions, as it comes and at its most accurate.
+fn carom(name: &'static str, precision: Precision, settings: Settings) -> Box<dyn Peer> {
+    Box::new(Carom { name, precision, settings })
+}
+
+/// carom's stepped engine in both precisions, as it comes and at its most accurate.
 pub fn engines() -> Vec<Box<dyn Peer>> {
-    let carom = |name, precision, settings| Box::new(Carom { name, precision, settings });
-    vec![
+    let mut engines = vec![
         carom("carom f32", Precision::F32, Settings::Defaults),
         carom("carom f64", Precision::F64, Settings::Defaults),
+    ];
+    engines.extend(sub_step());
+    engines
+}
+
+fn sub_step() -> [Box<dyn Peer>; 2] {
+    [
         carom("carom f32, sub-step", Precision::F32, Settings::SubStep),
         carom("carom f64, sub-step", Precision::F64, Settings::SubStep),
     ]
+}
+
+/// carom as it goes with meshes: impacts at their time, in both engines.
+pub fn with_meshes() -> Vec<Box<dyn Peer>> {
+    let mut engines = Vec::from(sub_step());
+    engines.extend([
+        carom("carom f32, event-driven", Precision::F32, Settings::EventDriven),
+        carom("carom f64, event-driven", Precision::F64, Settings::EventDriven),
+    ]);
+    engines
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@
 
 mod carom_engine;
 mod measure;
+mod mesh;
 mod peer;
 mod rapier_engine;
 mod reference;
@@ -23,7 +24,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 
-use peer::{Peer, PeerError};
+use peer::{Peer, PeerError, Timing};
 use report::Row;
 
 /// Measure carom and other rigid-body engines on the same scenes.
@@ -35,7 +36,7 @@ struct Arguments {
     /// Only these scenes (may be repeated).
     #[arg(long = "scene", value_name = "NAME")]
     scenes: Vec<SceneName>,
-    /// Numbers of bodies of the gas and of free flight, with commas between.
+    /// Numbers of bodies of the gas, of free flight and over hills, with commas between.
     #[arg(long, value_delimiter = ',', value_name = "N")]
     bodies: Vec<usize>,
     /// Threads of the timed runs.
@@ -61,6 +62,10 @@ enum SceneName {
     Spin,
     /// Single collisions: velocities.
     Pairs,
+    /// Spheres over hills of triangles: time, energy, spheres that fall through.
+    Terrain,
+    /// A ball on a flat mesh and on a plane: how they differ.
+    Seams,
 }
 
 /// How much is measured.
@@ -75,7 +80,18 @@ struct Extent {
     bounces: usize,
     spin_steps: usize,
     pairs: usize,
+    terrain: Vec<usize>,
+    /// Steps in which the energy over hills is followed.
+    terrain_steps: usize,
 }
+
+/// The fast spheres over hills: so many diameters a step.
+const FAST: f64 = 1000.0;
+
+/// How many there are, and their steps, in each of which one meets dozens of
+/// triangles.
+const FAST_SPHERES: usize = 100;
+const FAST_STEPS: usize = 4;
 
 /// Steps in which a sphere of the gas collides 22 times with others by
 /// Enskog's theory: 4 √(π/3) n σ² χ times the distance of 1,080 · 0.02 σ.
@@ -93,6 +109,8 @@ impl Extent {
                 bounces: 100,
                 spin_steps: 10_000,
                 pairs: 1_000,
+                terrain: vec![100],
+                terrain_steps: 200,
             }
         } else {
             Self {
@@ -104,11 +122,14 @@ impl Extent {
                 bounces: 1_000,
                 spin_steps: 1_000_000,
                 pairs: 4_000,
+                terrain: vec![1_000],
+                terrain_steps: 1_000,
             }
         };
         if !arguments.bodies.is_empty() {
             extent.gas.clone_from(&arguments.bodies);
             extent.free_flight.clone_from(&arguments.bodies);
+            extent.terrain.clone_from(&arguments.bodies);
         }
         if let Some(rounds) = arguments.rounds {
             extent.rounds = usize::from(rounds);
@@ -144,6 +165,8 @@ fn measured(arguments: &Arguments) -> Result<Vec<Row>, PeerError> {
     if arguments.defaults {
         peers.extend(rapier_engine::engines(rapier_engine::Settings::Defaults));
     }
+    let mut with_meshes = carom_engine::with_meshes();
+    with_meshes.extend(rapier_engine::with_meshes());
     let mut rows = Vec::new();
     for &scene in SceneName::value_variants() {
         if !arguments.scenes.is_empty() && !arguments.scenes.contains(&scene) {
@@ -171,6 +194,24 @@ fn measured(arguments: &Arguments) -> Result<Vec<Row>, PeerError> {
             SceneName::Pairs => rows.extend(single(&peers, "pairs", 2 * extent.pairs, |peer| {
                 Ok(report::pairs(peer.pairs(extent.pairs)?))
             })?),
+            SceneName::Terrain => {
+                let hops = [200, extent.terrain_steps];
+                for &bodies in &extent.terrain {
+                    rows.extend(terrain(&with_meshes, "terrain", &extent, bodies, None, hops)?);
+                }
+                let steps = [FAST_STEPS; 2];
+                let (scene, speed) = ("terrain, fast", Some(FAST));
+                rows.extend(terrain(&with_meshes, scene, &extent, FAST_SPHERES, speed, steps)?);
+            }
+            SceneName::Seams => {
+                for (scene, drop) in
+                    [("seams, hops", 0.25), ("seams, low hops", 0.01), ("seams, slides", 0.0)]
+                {
+                    rows.extend(single(&with_meshes, scene, 1, |peer| {
+                        Ok(peer.seams(drop).map_or_else(|error| error.brief(), report::seams))
+                    })?);
+                }
+            }
         }
     }
     Ok(rows)
@@ -192,11 +233,39 @@ fn gas(
             bodies,
             engine: peer.name(),
             times: Some(times),
-            gas: follow_energy.then(|| peer.gas_accuracy(bodies, ACCURACY_STEPS)).transpose()?,
+            energy: follow_energy.then(|| peer.gas_accuracy(bodies, ACCURACY_STEPS)).transpose()?,
             ..Row::default()
         });
     }
     Ok(rows)
+}
+
+/// Spheres over hills: steps of a timed run, and of one whose energy is
+/// followed. An engine that gives up goes on with the next scene.
+fn terrain(
+    peers: &[Box<dyn Peer>],
+    scene: &str,
+    extent: &Extent,
+    bodies: usize,
+    speed: Option<f64>,
+    [timed_steps, steps]: [usize; 2],
+) -> Result<Vec<Row>, PeerError> {
+    let times = rounds::interleaved(peers, extent.rounds, |peer| {
+        let unknown = Timing { nanoseconds: f64::NAN };
+        Ok(peer.terrain(bodies, speed, timed_steps).unwrap_or(unknown))
+    })?;
+    Ok(peers
+        .iter()
+        .zip(times)
+        .map(|(peer, times)| {
+            let (energy, result) = match peer.terrain_accuracy(bodies, speed, steps) {
+                Ok(energy) => (Some(energy), String::new()),
+                Err(error) => (None, error.brief()),
+            };
+            let times = Some(times).filter(|times| times.nanoseconds.is_finite());
+            Row { scene: scene.to_owned(), bodies, engine: peer.name(), times, energy, result }
+        })
+        .collect())
 }
 
 fn free_flight(

@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
 
-use crate::peer::{BounceFigures, GasFigures, PairFigures, PeerError, SpinFigures, Timing, World};
+use crate::peer::{
+    BounceFigures, EnergyFigures, PairFigures, PeerError, SeamFigures, SpinFigures, Timing, World,
+};
 use crate::reference::{
     add_scaled, angle_between, contact_time, difference, dot, elastic_collision, length, rotation,
 };
@@ -35,6 +37,15 @@ pub fn free_flight(
     timed(world.as_mut(), bodies, steps)
 }
 
+/// Wall time of spheres over hills.
+pub fn terrain(
+    mut world: Box<dyn World>,
+    bodies: usize,
+    steps: usize,
+) -> Result<Timing, PeerError> {
+    timed(world.as_mut(), bodies, steps)
+}
+
 fn timed(world: &mut dyn World, bodies: usize, steps: usize) -> Result<Timing, PeerError> {
     world.advance(WARM_UP_STEPS.min(steps))?;
     let start = Instant::now();
@@ -45,31 +56,33 @@ fn timed(world: &mut dyn World, bodies: usize, steps: usize) -> Result<Timing, P
     Ok(Timing { nanoseconds: nanoseconds / (bodies as f64 * steps as f64) })
 }
 
-/// Energy change and collisions of a gas.
-pub fn gas_accuracy(
+/// Energy change and collisions of many spheres.
+pub fn energy(
     mut world: Box<dyn World>,
     scene: &Scene,
     steps: usize,
-) -> Result<GasFigures, PeerError> {
+) -> Result<EnergyFigures, PeerError> {
     let bodies = scene.spheres.len();
-    let initial = kinetic_energy(world.as_ref(), bodies);
+    let initial = total_energy(world.as_ref(), scene);
     let collisions = world.advance_counted(steps)?;
-    let final_energy = kinetic_energy(world.as_ref(), bodies);
-    let escaped = match scene.surroundings {
-        Surroundings::Container { side } => (0..bodies)
-            .filter(|&i| world.position(i).iter().any(|x| !(0.0..=side).contains(x)))
-            .count(),
-        Surroundings::None | Surroundings::Floor => 0,
+    let final_energy = total_energy(world.as_ref(), scene);
+    let holds = |place: [f64; 3]| match &scene.surroundings {
+        Surroundings::Container { side } => place.iter().all(|x| (0.0..=*side).contains(x)),
+        Surroundings::Terrain(terrain) => terrain.holds(place),
+        Surroundings::None | Surroundings::Floor | Surroundings::FlatMesh(_) => true,
     };
-    Ok(GasFigures { energy_change: final_energy / initial - 1.0, escaped, collisions, steps })
+    let escaped = (0..bodies).filter(|&i| !holds(world.position(i))).count();
+    Ok(EnergyFigures { energy_change: final_energy / initial - 1.0, escaped, collisions, steps })
 }
 
-/// Kinetic energy of solid spheres of mass 1: ½ v² + ½ · ⅖ r² w² each.
-fn kinetic_energy(world: &dyn World, bodies: usize) -> f64 {
-    (0..bodies)
+/// Energy of solid spheres of mass 1: ½ v² + ½ · ⅖ r² w² each, and that of
+/// their height over z = 0.
+fn total_energy(world: &dyn World, scene: &Scene) -> f64 {
+    (0..scene.spheres.len())
         .map(|i| {
             let (v, w) = (world.velocity(i), world.spin(i));
-            0.5 * dot(v, v) + 0.2 * RADIUS * RADIUS * dot(w, w)
+            let moving = 0.5 * dot(v, v) + 0.2 * RADIUS * RADIUS * dot(w, w);
+            moving - scene.gravity * world.position(i)[2]
         })
         .sum()
 }
@@ -111,6 +124,24 @@ pub fn bounce(mut world: Box<dyn World>, bounces: usize) -> Result<BounceFigures
             break;
         }
         (before, middle) = (middle, after);
+    }
+    Ok(figures)
+}
+
+/// What a ball on a flat mesh differs by from one on a plane, step by step.
+pub fn seams(mut worlds: [Box<dyn World>; 2], steps: usize) -> Result<SeamFigures, PeerError> {
+    let mut figures = SeamFigures::default();
+    let [vx, vy, _] = worlds[0].velocity(0);
+    let along = vx.hypot(vy);
+    for _ in 0..steps {
+        for world in &mut worlds {
+            world.advance(1)?;
+        }
+        let [on_mesh, on_plane] = &worlds;
+        let position = length(difference(on_mesh.position(0), on_plane.position(0)));
+        let velocity = length(difference(on_mesh.velocity(0), on_plane.velocity(0)));
+        figures.position = figures.position.max(position);
+        figures.velocity = figures.velocity.max(velocity / along);
     }
     Ok(figures)
 }

@@ -1,7 +1,10 @@
 //! What an engine has to offer to be measured, and the figures it is measured by.
 
+use std::sync::Arc;
+
 use crate::measure;
-use crate::scene::Scene;
+use crate::mesh::Mesh;
+use crate::scene::{Scene, Surroundings};
 
 /// The floating-point type that an engine computes in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +33,15 @@ pub enum PeerError {
         /// Its message.
         message: String,
     },
+}
+
+impl PeerError {
+    /// What happened, without the engine's name and without advice.
+    pub fn brief(&self) -> String {
+        let text = self.to_string();
+        let mut clauses = text.split(": ").skip(1);
+        clauses.next().map_or(text.clone(), str::to_owned)
+    }
 }
 
 /// How often bodies collided.
@@ -89,9 +101,38 @@ pub trait Peer {
     }
 
     /// Energy change and collisions of a gas in a container.
-    fn gas_accuracy(&self, bodies: usize, steps: usize) -> Result<GasFigures, PeerError> {
+    fn gas_accuracy(&self, bodies: usize, steps: usize) -> Result<EnergyFigures, PeerError> {
         let scene = Scene::gas(bodies);
-        measure::gas_accuracy(self.world(&scene, 1)?, &scene, steps)
+        measure::energy(self.world(&scene, 1)?, &scene, steps)
+    }
+
+    /// Time of spheres over hills; see [`Scene::terrain`].
+    fn terrain(
+        &self,
+        bodies: usize,
+        diameters_a_step: Option<f64>,
+        steps: usize,
+    ) -> Result<Timing, PeerError> {
+        let world = self.world(&Scene::terrain(bodies, diameters_a_step), 1)?;
+        measure::terrain(world, bodies, steps)
+    }
+
+    /// Energy change of spheres over hills, and those that fall through.
+    fn terrain_accuracy(
+        &self,
+        bodies: usize,
+        diameters_a_step: Option<f64>,
+        steps: usize,
+    ) -> Result<EnergyFigures, PeerError> {
+        let scene = Scene::terrain(bodies, diameters_a_step);
+        measure::energy(self.world(&scene, 1)?, &scene, steps)
+    }
+
+    /// What a ball on a flat mesh differs by from the same on a plane.
+    fn seams(&self, drop: f64) -> Result<SeamFigures, PeerError> {
+        let on_mesh = Scene::seams(drop, Surroundings::FlatMesh(Arc::new(Mesh::flat())));
+        let on_plane = Scene::seams(drop, Surroundings::Floor);
+        measure::seams([self.world(&on_mesh, 1)?, self.world(&on_plane, 1)?], Scene::SEAMS_STEPS)
     }
 
     /// Time of bodies that move and spin and never meet. With `detection` the
@@ -131,12 +172,13 @@ pub struct Timing {
     pub nanoseconds: f64,
 }
 
-/// Quality of a gas of smooth elastic spheres.
+/// Quality of many smooth elastic spheres.
 #[derive(Clone, Copy, Debug)]
-pub struct GasFigures {
-    /// Final over initial kinetic energy, less one. Exact: 0.
+pub struct EnergyFigures {
+    /// Final over initial energy, less one. Exact: 0.
     pub energy_change: f64,
-    /// Spheres whose centre is outside the container at the end. Exact: 0.
+    /// Spheres whose centre is outside the container, or not over the hills
+    /// inside their room, at the end. Exact: 0.
     pub escaped: usize,
     /// Collisions in the run.
     pub collisions: Option<Collisions>,
@@ -153,6 +195,17 @@ pub struct BounceFigures {
     pub apex: f64,
     /// Whether the ball came to rest before it had made all its bounces.
     pub stopped: bool,
+}
+
+/// Quality of a flat mesh. Exact: 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SeamFigures {
+    /// The greatest distance between the ball on the mesh and that on the
+    /// plane, diameters.
+    pub position: f64,
+    /// The greatest difference of their velocities over the velocity along the
+    /// floor.
+    pub velocity: f64,
 }
 
 /// Quality of rotation.

@@ -2,7 +2,9 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 
-use crate::peer::{BounceFigures, Collisions, GasFigures, PairFigures, SpinFigures};
+use crate::peer::{
+    BounceFigures, Collisions, EnergyFigures, PairFigures, SeamFigures, SpinFigures,
+};
 use crate::rounds::Times;
 
 /// One line of the table: one engine in one scene.
@@ -16,8 +18,8 @@ pub struct Row {
     pub engine: &'static str,
     /// Run time, where it is measured.
     pub times: Option<Times>,
-    /// Accuracy of a gas, where it is measured.
-    pub gas: Option<GasFigures>,
+    /// Energy and collisions, where they are measured.
+    pub energy: Option<EnergyFigures>,
     /// The other figure of the scene, in words.
     pub result: String,
 }
@@ -49,7 +51,7 @@ pub fn table(rows: &[Row]) -> Table {
 }
 
 fn cells(row: &Row) -> [String; 8] {
-    let collisions = row.gas.and_then(|gas| Some((gas, gas.collisions?)));
+    let collisions = row.energy.and_then(|energy| Some((energy, energy.collisions?)));
     let optional = |text: Option<String>| text.unwrap_or_default();
     [
         row.scene.clone(),
@@ -57,13 +59,13 @@ fn cells(row: &Row) -> [String; 8] {
         row.engine.to_owned(),
         optional(row.times.map(|t| format!("{:.1}", t.nanoseconds))),
         optional(row.times.map(|t| format!("{:.2}", t.ratio))),
-        optional(row.times.zip(collisions).map(|(times, (gas, collisions))| {
-            let steps = gas.steps as f64 * row.bodies as f64;
+        optional(row.times.zip(collisions).and_then(|(times, (energy, collisions))| {
+            let steps = energy.steps as f64 * row.bodies as f64;
             let all = collisions.pairs + collisions.surroundings;
-            format!("{:.2}", 1e-3 * times.nanoseconds * steps / all as f64)
+            (all > 0).then(|| format!("{:.2}", 1e-3 * times.nanoseconds * steps / all as f64))
         })),
         optional(collisions.map(|(_, collisions)| per_sphere(collisions, row.bodies))),
-        optional(row.gas.map(gas)) + row.result.as_str(),
+        optional(row.energy.map(energy)) + row.result.as_str(),
     ]
 }
 
@@ -74,12 +76,19 @@ fn per_sphere(collisions: Collisions, bodies: usize) -> String {
     format!("{pairs:.2} + {walls:.2} walls")
 }
 
-/// What came of the gas.
-fn gas(figures: GasFigures) -> String {
+/// What came of many spheres.
+fn energy(figures: EnergyFigures) -> String {
     let energy = format!("energy {:+.1e}", figures.energy_change);
-    match figures.escaped {
-        0 => energy,
-        escaped => format!("{energy}, {} escaped", thousands(escaped)),
+    format!("{energy}, {} escaped", thousands(figures.escaped))
+}
+
+/// What came of the seams.
+pub fn seams(figures: SeamFigures) -> String {
+    let SeamFigures { position, velocity } = figures;
+    if position == 0.0 && velocity == 0.0 {
+        "no difference".to_owned()
+    } else {
+        format!("position off by {position:.1e}, velocity by {velocity:.1e}")
     }
 }
 

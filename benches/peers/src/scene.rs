@@ -2,7 +2,11 @@
 //! value that an `f32` holds exactly, so that engines of either precision get
 //! the same input. Lengths are in sphere diameters, masses in sphere masses.
 
+use std::sync::Arc;
+
 use oorandom::Rand64;
+
+use crate::mesh::{Mesh, Terrain};
 
 /// Radius of every sphere.
 pub const RADIUS: f64 = 0.5;
@@ -33,7 +37,7 @@ pub struct Sphere {
 }
 
 /// What surrounds the spheres.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Surroundings {
     /// Nothing.
     None,
@@ -44,6 +48,21 @@ pub enum Surroundings {
     },
     /// The floor z = 0.
     Floor,
+    /// The floor z = 0, of triangles.
+    FlatMesh(Arc<Mesh>),
+    /// Hills in a closed room, of triangles.
+    Terrain(Arc<Terrain>),
+}
+
+/// What spheres can collide with. Engines need not look for other collisions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encounters {
+    /// Nothing.
+    None,
+    /// The surroundings.
+    Surroundings,
+    /// The surroundings and each other.
+    All,
 }
 
 /// Smooth, elastic spheres: restitution 1, friction 0.
@@ -57,9 +76,8 @@ pub struct Scene {
     pub gravity: f64,
     /// Time step.
     pub dt: f64,
-    /// Whether spheres can collide with each other and the surroundings. If
-    /// not, the engine need not look for collisions.
-    pub collisions: bool,
+    /// What spheres can collide with.
+    pub encounters: Encounters,
 }
 
 impl Scene {
@@ -96,7 +114,7 @@ impl Scene {
                     spin: direction(&mut random).map(|c| single(c * 0.01 / DT)),
                 })
                 .collect(),
-            collisions,
+            encounters: if collisions { Encounters::All } else { Encounters::None },
             ..Self::empty()
         }
     }
@@ -154,19 +172,63 @@ impl Scene {
         Self { spheres, ..Self::empty() }
     }
 
+    /// Spheres over hills, on four cells each, that do not meet each other. They
+    /// fall from up to 12 diameters at gravity 10, or fly in all directions
+    /// without gravity, so many `diameters_a_step`.
+    pub fn terrain(bodies: usize, diameters_a_step: Option<f64>) -> Self {
+        let mut random = Rand64::new(6);
+        let edge = (bodies as f64).sqrt().ceil() as usize;
+        let spheres = (0..bodies)
+            .map(|i| {
+                let mut near = |middle: f64| single(middle + 0.8 * (random.rand_float() - 0.5));
+                let [x, y] = [i % edge, i / edge].map(|k| near(2.0 * k as f64 + 1.0));
+                let z = single(Terrain::HIGHEST + 1.0 + 4.0 * random.rand_float());
+                let speed = diameters_a_step.unwrap_or(0.0) / DT;
+                let velocity = direction(&mut random).map(|c| single(speed * c));
+                Sphere { position: [x, y, z], velocity, spin: [0.0; 3] }
+            })
+            .collect();
+        Self {
+            spheres,
+            surroundings: Surroundings::Terrain(Arc::new(Terrain::new(2 * edge))),
+            gravity: if diameters_a_step.is_some() { 0.0 } else { -10.0 },
+            encounters: Encounters::Surroundings,
+            ..Self::empty()
+        }
+    }
+
+    /// A ball that hops over a floor from a height of `drop`, or slides on it
+    /// if that is 0: across a flat mesh in [`Self::SEAMS_STEPS`] steps.
+    pub fn seams(drop: f64, surroundings: Surroundings) -> Self {
+        Self {
+            spheres: vec![Sphere {
+                position: [-6.0, -13.0, single(RADIUS + drop)],
+                velocity: [0.5, 1.125, 0.0],
+                spin: [0.0; 3],
+            }],
+            surroundings,
+            gravity: -1.0,
+            encounters: Encounters::Surroundings,
+            ..Self::empty()
+        }
+    }
+
+    /// Steps in which a ball comes to the other side of the flat mesh.
+    pub const SEAMS_STEPS: usize = 1500;
+
     fn empty() -> Self {
         Self {
             spheres: Vec::new(),
             surroundings: Surroundings::None,
             gravity: 0.0,
             dt: DT,
-            collisions: true,
+            encounters: Encounters::All,
         }
     }
 }
 
 /// The nearest value that an `f32` holds.
-fn single(x: f64) -> f64 {
+pub fn single(x: f64) -> f64 {
     f64::from(x as f32)
 }
 
