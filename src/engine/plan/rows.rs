@@ -56,8 +56,13 @@ impl fmt::Display for Plan {
         row("pairs", self.pairs())?;
         row("surroundings", &self.surroundings())?;
         if self.inlets + self.drains > 0 {
+            let cost = match self.engine {
+                EngineKind::EventDriven if self.inlets == 0 => "taken out in its course",
+                EngineKind::EventDriven => "the world is built again for those that come",
+                EngineKind::Stepped => "the world is built again at each exchange",
+            };
             let how = format!(
-                "{}, {}: the world is built again at each exchange",
+                "{}, {}: {cost}",
                 counted(self.inlets, "inlet", "inlets"),
                 counted(self.drains, "part that removes", "parts that remove"),
             );
