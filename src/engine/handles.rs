@@ -131,6 +131,7 @@ impl Handles {
     }
 
     /// Those that were taken out, by their indices in the engine.
+    #[cfg(feature = "files")]
     pub fn out(&self) -> &[u32] {
         &self.out
     }
