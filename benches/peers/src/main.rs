@@ -85,7 +85,7 @@ struct Extent {
     terrain_steps: usize,
 }
 
-/// The fast spheres over hills: so many diameters a step.
+/// The fast spheres over hills: their diameters a step.
 const FAST: f64 = 1000.0;
 
 /// How many there are, and their steps, in each of which one meets dozens of

@@ -174,7 +174,7 @@ impl Scene {
 
     /// Spheres over hills, on four cells each, that do not meet each other. They
     /// fall from up to 12 diameters at gravity 10, or fly in all directions
-    /// without gravity, so many `diameters_a_step`.
+    /// without gravity, at `diameters_a_step`.
     pub fn terrain(bodies: usize, diameters_a_step: Option<f64>) -> Self {
         let mut random = Rand64::new(6);
         let edge = (bodies as f64).sqrt().ceil() as usize;
