@@ -401,7 +401,7 @@ impl<T: Compiled> Change<'_, T> {
             let kept: Vec<usize> = (0..bodies.len()).filter(|body| !removed[*body]).collect();
             bodies = bodies.only(&kept);
             placed = kept.iter().map(|&body| placed[body]).collect();
-            handles.keep(&kept);
+            handles.keep(kept.iter().copied());
         }
         let mut base = Scene { gravity, ..target.base().scene.clone() };
         let NewParts { handles: part_handles, kept, is_added } = parts.take_effect(&mut base);

@@ -147,8 +147,7 @@ impl Handles {
     pub fn left(&self) -> Self {
         let mut left = self.clone();
         if !self.out.is_empty() {
-            left.listed = Some((0..self.count()).filter_map(|index| self.of(index)).collect());
-            left.out.clear();
+            left.keep(0..self.count());
         }
         left
     }
@@ -173,8 +172,9 @@ impl Handles {
     }
 
     /// Forgets all but those of these indices, which rise.
-    pub fn keep(&mut self, kept: &[usize]) {
-        self.listed = Some(kept.iter().filter_map(|&index| self.of(index)).collect());
+    pub fn keep(&mut self, kept: impl IntoIterator<Item = usize>) {
+        self.listed = Some(kept.into_iter().filter_map(|index| self.of(index)).collect());
+        self.out.clear();
     }
 
     /// The bytes that they hold.

@@ -170,8 +170,9 @@ impl Watch {
     fn count(&self, parts: &mut [PartTotals], now: Option<f64>) {
         let mut counts = self.seen.passages.clone();
         let sides = self.seen.is_inside.chunks_exact(self.gates.len());
-        for (begun, sides) in self.seen.flights.iter().zip(sides) {
-            let Some(now) = now.filter(|_| begun.since.is_finite()) else { continue };
+        let flights = self.seen.flights.iter().zip(sides);
+        for (begun, sides) in flights.filter(|(begun, _)| begun.since.is_finite()) {
+            let Some(now) = now else { break };
             let flight = begun.flight(self.pull);
             for (((_, gate), side), count) in self.gates.iter().zip(sides).zip(&mut counts) {
                 *count += gate.passages(&flight, now - begun.since, *side).0;

@@ -1,9 +1,9 @@
 //! Hierarchy: which of many parts are near a place, in few bytes a part.
 //!
 //! The parts stand in an order in which neighbours in space are neighbours in number
-//! ([`along_curve`](super::curve::along_curve)). They are halved by number, down to a few each; so the nodes depend on
-//! how many parts there are and on nothing else, and their boxes are found from the leaves
-//! up: `O(n)`. Nodes lie in one array in the order in which a search comes to them, each
+//! ([`along_curve`](super::curve::along_curve)). They are halved by number, down to a few
+//! each; so the nodes depend on how many parts there are and on nothing else, and their boxes
+//! are found from the leaves up: `O(n)`. Nodes lie in one array in the order in which a search comes to them, each
 //! with the number to go on from where it is too far away, so a search needs no stack.
 //!
 //! Boxes are in f32, rounded outward, in every precision.

@@ -53,11 +53,7 @@ impl<T: Real> Copies<T> {
     /// ```
     #[must_use]
     pub fn new(shape: impl Into<Shape<T>>) -> Self {
-        Self::of(shape.into())
-    }
-
-    pub(crate) fn of(shape: Shape<T>) -> Self {
-        Self { shape: Box::new(shape), rows: Vec::new() }
+        Self { shape: Box::new(shape.into()), rows: Vec::new() }
     }
 
     /// `count` in place of each one there is, a step, length, from one to the next.
@@ -79,27 +75,34 @@ impl<T: Real> Copies<T> {
         self.rows.iter().map(|row| row.count).fold(1, u64::saturating_mul)
     }
 
+    /// The one that is a number of steps along each row.
+    fn after(&self, steps: impl Iterator<Item = u64>) -> Shape<T> {
+        let shift =
+            self.rows.iter().zip(steps).fold(Vec3::ZERO, |shift, (row, steps)| {
+                shift + row.step * T::from_f64(steps as f64)
+            });
+        self.shape.moved(shift.to_array())
+    }
+
     /// One of them.
     fn copy(&self, number: u64) -> Shape<T> {
         let mut rest = number;
-        let shift = self.rows.iter().fold(Vec3::ZERO, |shift, row| {
-            let k = rest % row.count;
+        self.after(self.rows.iter().map(|row| {
+            let steps = rest % row.count;
             rest /= row.count;
-            shift + row.step * T::from_f64(k as f64)
-        });
-        self.shape.moved(shift.to_array())
+            steps
+        }))
     }
 
     /// Those at the ends of all rows.
     fn outermost(&self) -> impl Iterator<Item = Shape<T>> {
         let corners = 0..1_u32 << self.rows.len().min(MOST_ROWS);
         corners.map(|corner| {
-            let ends = self.rows.iter().enumerate();
-            let shift = ends.fold(Vec3::ZERO, |shift, (k, row)| {
-                let steps = if corner >> k & 1 == 0 { 0 } else { row.count.saturating_sub(1) };
-                shift + row.step * T::from_f64(steps as f64)
-            });
-            self.shape.moved(shift.to_array())
+            self.after(
+                self.rows.iter().enumerate().map(|(k, row)| {
+                    if corner >> k & 1 == 0 { 0 } else { row.count.saturating_sub(1) }
+                }),
+            )
         })
     }
 }

@@ -73,7 +73,7 @@ impl<T: Real> ChangedParts<T> {
         keep(&mut scene.removes, &removed);
         keep(&mut is_added, &removed);
         if !removed.is_empty() {
-            handles.keep(&left);
+            handles.keep(left.iter().copied());
         }
         let mut kept = vec![None; before];
         for (index, &part) in (0..).zip(&left) {

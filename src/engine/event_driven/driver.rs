@@ -240,7 +240,7 @@ impl<T: Real> EventEngine<T> for Driver<T> {
         let flight = store.records[slot].flight();
         let motion = [flight.position, flight.velocity, store.spin_of(setting, slot)];
         let taken = setting.bodies.one_moving(index as usize, motion);
-        store.take_out(setting, slot, team.first().new_stamp());
+        store.whole(team.first(), None).take_out(setting, slot);
         Some(taken)
     }
 }

@@ -3,7 +3,7 @@
 use core::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::agenda::Agenda;
+use super::agenda::{Agenda, PartnerCode};
 use super::calendar::{Calendar, Turn};
 use super::coarse::Screening;
 use super::flight::{Flight, Record};
@@ -299,6 +299,18 @@ impl<T: Real> Region<'_, T> {
             cells.insert(to, slot);
         }
         self.make_room();
+    }
+
+    /// Takes the body in a slot out: it meets nothing any longer, and is forgotten where the
+    /// next period begins.
+    pub fn take_out(&mut self, setting: &Setting<T>, slot: usize) {
+        if setting.plan.has_pairs {
+            let (level, cell) = (self.level_of(slot), self.agendas[slot].cell);
+            self.cells.remove(level, cell, slot as u32);
+        }
+        self.agendas[slot].end();
+        let stamp = self.worker.new_stamp();
+        self.marks[slot] = Mark { stamp, last: PartnerCode::OUT, ..self.marks[slot] };
     }
 
     /// Enters the next turn of the body in a slot.

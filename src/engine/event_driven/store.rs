@@ -95,26 +95,12 @@ impl<T: Real> Store<T> {
         (0..self.records.len()).filter(|&slot| !self.is_out(slot))
     }
 
-    /// Takes the body in a slot out: it meets nothing any longer, and is forgotten where the
-    /// next period begins.
-    pub fn take_out(&mut self, setting: &Setting<T>, slot: usize, stamp: u32) {
-        if setting.plan.has_pairs {
-            let cell = self.agendas[slot].cell;
-            let mut cells = self.cells.held();
-            let level =
-                if cells.len() == 1 { 0 } else { cells.level_of(self.records[slot].radius()) };
-            cells.remove(level, cell, slot as u32);
-        }
-        self.agendas[slot].end();
-        self.marks[slot] = Mark { stamp, last: PartnerCode::OUT, ..self.marks[slot] };
-    }
-
     /// Forgets the bodies that were taken out: all but their agendas, which are to be begun.
     pub fn forget_out(&mut self) {
-        let is_out: Vec<bool> = (0..self.records.len()).map(|slot| self.is_out(slot)).collect();
-        if !is_out.contains(&true) {
+        if self.slots().count() == self.records.len() {
             return;
         }
+        let is_out: Vec<bool> = (0..self.records.len()).map(|slot| self.is_out(slot)).collect();
         fn keep<V>(values: &mut Vec<V>, is_out: &[bool]) {
             let mut out = is_out.iter();
             values.retain(|_| out.next() != Some(&true));
