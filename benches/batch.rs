@@ -2,7 +2,7 @@
 //! scenes one by one, what a scene costs to set up, and its memory.
 //!
 //! ```text
-//! cargo bench --manifest-path benches/Cargo.toml --bench batch            # three minutes
+//! cargo bench --manifest-path benches/Cargo.toml --bench batch            # six minutes
 //! cargo bench --manifest-path benches/Cargo.toml --bench batch -- quick   # 16 bodies only
 //! ```
 //!
@@ -19,7 +19,7 @@ use std::time::Instant;
 
 use carom::contact::Surface;
 use carom::engine::{Batch, Compiled, EventDriven, Execution, Lanes, Stepped};
-use carom::scene::{EngineKind, Scene, SceneError};
+use carom::scene::{EngineKind, Impact, Scene, SceneError};
 
 /// Rounds of a table.
 const ROUNDS: usize = 7;
@@ -40,12 +40,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let is_quick = std::env::args().any(|argument| argument == "quick");
     println!("{}", process::processor());
     println!("\nns of wall time for a body and step; times as fast as one by one on one thread");
-    println!("bodies  surface  precision  alone     lanes 1      4           8           16");
+    println!(
+        "bodies  impact       surface  precision  alone     lanes 1      4           8           16"
+    );
     let sizes: &[usize] = if is_quick { &[16] } else { &[2, 5, 16, 50, 100, 200] };
     for &bodies in sizes {
-        for surface in [Surface::Smooth, Surface::Rough] {
-            steps::<f32>(bodies, surface)?;
-            steps::<f64>(bodies, surface)?;
+        for impact in [Impact::EndOfStep, Impact::SubStep] {
+            for surface in [Surface::Smooth, Surface::Rough] {
+                steps::<f32>(bodies, impact, surface)?;
+                steps::<f64>(bodies, impact, surface)?;
+            }
         }
     }
     println!("\nset-up of a scene of 16 bodies, µs on one thread, and its memory, bytes");
@@ -63,17 +67,26 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Spheres of diameter 1 in a container, for the stepped engine.
-fn gas<T: Compiled>(bodies: usize, surface: Surface) -> Result<Scene<T>, SceneError> {
+fn gas<T: Compiled>(
+    bodies: usize,
+    impact: Impact,
+    surface: Surface,
+) -> Result<Scene<T>, SceneError> {
     let mut scene = scenes::gas::<T>(bodies, surface)?;
+    scene.stepped.impact = impact;
     scene.engine = EngineKind::Stepped;
     Ok(scene)
 }
 
 /// One table row: threads 1 and 2 in all widths, beside worlds one by one.
-fn steps<T: Compiled>(bodies: usize, surface: Surface) -> Result<(), Box<dyn Error>> {
+fn steps<T: Compiled>(
+    bodies: usize,
+    impact: Impact,
+    surface: Surface,
+) -> Result<(), Box<dyn Error>> {
     let count = (BODIES / bodies).next_multiple_of(16);
     let steps = (WORK / (count * bodies)).max(4) as u64;
-    let scene = gas::<T>(bodies, surface)?;
+    let scene = gas::<T>(bodies, impact, surface)?;
     let mut batches = Vec::new();
     for threads in [1, 2] {
         for lanes in WIDTHS {
@@ -124,7 +137,8 @@ fn steps<T: Compiled>(bodies: usize, surface: Surface) -> Result<(), Box<dyn Err
         let cells = (first..first + WIDTHS.len())
             .map(|column| format!("{:6.2} {:5.1}", least(column), ratio(column)));
         println!(
-            "{bodies:6}  {surface:7}  {:9}  {:6.1}   {}   ({threads} threads; last: auto)",
+            "{bodies:6}  {:11}  {surface:7}  {:9}  {:6.1}   {}   ({threads} threads; last: auto)",
+            if impact == Impact::SubStep { "within step" } else { "end of step" },
             T::NAME,
             least(0),
             cells.collect::<Vec<_>>().join("  "),
@@ -136,7 +150,7 @@ fn steps<T: Compiled>(bodies: usize, surface: Surface) -> Result<(), Box<dyn Err
 /// What a scene costs before it moves.
 fn set_up<T: Compiled>(surface: Surface) -> Result<(), Box<dyn Error>> {
     const COUNT: usize = 20_000;
-    let scene = gas::<T>(16, surface)?;
+    let scene = gas::<T>(16, Impact::EndOfStep, surface)?;
     let execution = Execution::new().threads(1);
     let (mut batch_time, mut alone_time, mut bytes) = (f64::INFINITY, f64::INFINITY, 0);
     for _ in 0..ROUNDS {

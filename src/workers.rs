@@ -49,10 +49,26 @@ impl Workers {
     pub fn each<I: Send>(&self, items: &mut [I], work: impl Fn(&mut I) + Send + Sync) {
         let workers = items.len().min(self.threads());
         let queue = Mutex::new(items.iter_mut());
-        let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
         self.fan_out(workers, &|| {
-            while let Some(item) = next() {
+            while let Some(item) = next(&queue) {
                 work(item);
+            }
+        });
+    }
+
+    /// The same, where each worker has something of its own; so there are at most as many.
+    pub fn each_with<W: Send, I: Send>(
+        &self,
+        own: &mut [W],
+        items: &mut [I],
+        work: impl Fn(&mut W, &mut I) + Send + Sync,
+    ) {
+        let workers = items.len().min(self.threads()).min(own.len());
+        let (own, queue) = (Mutex::new(own.iter_mut()), Mutex::new(items.iter_mut()));
+        self.fan_out(workers, &|| {
+            let Some(own) = next(&own) else { return };
+            while let Some(item) = next(&queue) {
+                work(own, item);
             }
         });
     }
@@ -68,4 +84,9 @@ impl Workers {
         }
         if workers > 1 { self.run(|| split(workers, work)) } else { work() }
     }
+}
+
+/// The next item of a queue.
+fn next<I: Iterator>(queue: &Mutex<I>) -> Option<I::Item> {
+    queue.lock().unwrap_or_else(PoisonError::into_inner).next()
 }

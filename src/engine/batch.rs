@@ -7,11 +7,14 @@
 
 mod fault;
 mod meet;
+mod moving;
 mod pack;
+mod seat;
 mod setting;
 mod start;
 mod step;
 mod view;
+mod within;
 mod work;
 
 use std::collections::BTreeMap;
@@ -30,9 +33,10 @@ pub(super) use setting::Setting;
 pub(super) use start::{Make, start};
 pub(super) use step::{Events, advance};
 pub use view::PackView;
+pub(super) use within::Meetings;
 pub(super) use work::Going;
 
-use pack::Seat;
+use seat::Seat;
 use work::{Alone, steps_in};
 
 /// Steps after which the collisions of all scenes are reported.
@@ -55,7 +59,7 @@ enum Place {
 /// threads. Each has the bits that it has in a world of its own.
 ///
 /// Lanes take scenes of one shape: the same number of bodies, fixed parts, surface and
-/// integrator, in open space, by the stepped engine with impacts at the end of a step. They
+/// integrator, in open space, by the stepped engine. They
 /// may differ in positions, velocities, spins, radii, masses, gravity, step and duration.
 /// All other scenes can be in a batch too, and run one by one on all threads; so do those of
 /// more than 128 bodies, since lanes test every pair. `carom explain` says which way a scene
@@ -81,6 +85,8 @@ enum Place {
 pub struct Batch<T: Real> {
     setting: Setting<T>,
     workers: Workers,
+    /// For contacts within steps, one for each worker.
+    meetings: Vec<Option<Meetings<T>>>,
     packs: Vec<Pack<T>>,
     alone: Vec<Alone<T>>,
     places: Vec<Place>,
@@ -489,7 +495,8 @@ impl<T: Real> Batch<T> {
     pub fn bytes(&self) -> usize {
         let alone = self.alone.iter().map(|alone| alone.world.bytes()).sum::<usize>();
         let index = size_of_val(self.places.as_slice()) + size_of_val(self.durations.as_slice());
-        self.packs.iter().map(Pack::bytes).sum::<usize>() + alone + index
+        let meetings = self.meetings.iter().flatten().map(Meetings::bytes).sum::<usize>();
+        self.packs.iter().map(Pack::bytes).sum::<usize>() + meetings + alone + index
     }
 
     /// What a scene has, by where it is.

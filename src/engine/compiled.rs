@@ -40,7 +40,7 @@ pub(super) mod sealed {
         Batch, BatchError, Bodies, Change, ChangeError, Contact, EngineError, Event, EventEngine,
         Execution, Hit, Real, Scene, StepEngine, Survey, Vec3,
     };
-    use crate::engine::batch::{Events, Going, Make, Pack, Setting};
+    use crate::engine::batch::{Events, Going, Make, Meetings, Pack, Setting};
 
     /// What makes the engines of a precision; not generic, so that it is compiled
     /// in this crate.
@@ -58,6 +58,7 @@ pub(super) mod sealed {
         fn advance_pack(
             setting: &Setting<Self>,
             pack: &mut Pack<Self>,
+            meetings: Option<&mut Meetings<Self>>,
             steps: u64,
             events: Option<&mut Events<Self>>,
         );
@@ -139,10 +140,11 @@ macro_rules! compile {
             fn advance_pack(
                 setting: &batch::Setting<Self>,
                 pack: &mut batch::Pack<Self>,
+                meetings: Option<&mut batch::Meetings<Self>>,
                 steps: u64,
                 events: Option<&mut batch::Events<Self>>,
             ) {
-                batch::advance(setting, pack, steps, events);
+                batch::advance(setting, pack, meetings, steps, events);
             }
 
             fn apply(change: Change<'_, Self>) -> Result<(), ChangeError> {

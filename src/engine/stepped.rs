@@ -26,6 +26,7 @@ mod resolve;
 mod setting;
 #[cfg(feature = "files")]
 mod snapshot;
+mod stage;
 mod state;
 mod struck;
 
@@ -42,11 +43,16 @@ use crate::real::Real;
 use crate::scene::{MOST_STEPS, Scene};
 use crate::vec3::Vec3;
 
+pub(super) use contacts::{Contact as ContactInStep, Rank};
 pub(super) use driver::Driver;
 pub(super) use lanes::in_lanes;
+pub(super) use narrow::met_since;
 pub(super) use orientations::Orientations;
+pub(super) use path::Path;
 #[cfg(feature = "files")]
 pub(super) use snapshot::StepState;
+pub(super) use stage::{Stage, Steps};
+pub(super) use state::State;
 
 /// A scene in motion, by steps of fixed length.
 ///

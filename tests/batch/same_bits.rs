@@ -42,7 +42,7 @@ impl Shape {
             ][random.random_range(0..3)],
             summation: [Summation::Auto, Summation::Plain, Summation::Compensated]
                 [random.random_range(0..3)],
-            impact: if rarely(random) { Impact::SubStep } else { Impact::EndOfStep },
+            impact: if random.random() { Impact::SubStep } else { Impact::EndOfStep },
             engine: if rarely(random) { EngineKind::EventDriven } else { EngineKind::Stepped },
             orientation: match rarely(random) {
                 true => OrientationUpdate::EachStep,

@@ -1,6 +1,6 @@
 //! Meet: a contact takes effect in the lanes that touch.
 
-use super::pack::Moving;
+use super::moving::{Moving, Values};
 use super::setting::Setting;
 use super::step::Events;
 use crate::bodies::Columns3;
@@ -141,7 +141,7 @@ impl<T: Real, W: Laws<T>> Kind<'_, T, W> {
     #[inline(always)]
     fn party<L: Lane<Scalar = T>>(self, moving: &Moving<T>, body: usize, lane: usize) -> Party<L> {
         let start = body * moving.width + lane;
-        let inverse = |values: &super::pack::Values<T>| {
+        let inverse = |values: &Values<T>| {
             L::ONE / L::load(&values.column[values.index(moving.width, body, lane)..])
         };
         let spins = W::CHANGES_SPINS;

@@ -1,5 +1,6 @@
 //! Setting: what the scenes in lanes have in common, and which scenes lanes take.
 
+use super::within::Meetings;
 use crate::engine::frame::Frame;
 use crate::engine::plan::{Plan, Turning, has_field, summation};
 use crate::engine::stepped::in_lanes;
@@ -40,6 +41,14 @@ impl<T: Real> Setting<T> {
         Self { plan, width, features, first: first.without_bodies() }
     }
 
+    /// What each worker needs for contacts that take effect within a step; `None` where they do
+    /// at its end, or where there is nothing to touch. `first` has the shape of all scenes.
+    pub fn meetings(&self, first: &Scene<T>) -> Option<Meetings<T>> {
+        let has_contacts = self.plan.has_pairs || !self.features.is_empty();
+        let is_within = self.plan.impact == Impact::SubStep && has_contacts && self.has_lanes();
+        is_within.then(|| Meetings::new(first, self.width).ok()).flatten()
+    }
+
     /// Whether any scene of this shape is in a lane.
     pub fn has_lanes(&self) -> bool {
         self.plan.alone_in_batch().is_none()
@@ -78,8 +87,6 @@ impl Plan {
             Some("spheres come and go")
         } else if self.sensors > 0 {
             Some("sensors look at each scene")
-        } else if self.impact == Impact::SubStep && (self.has_pairs || self.features > 0) {
-            Some("impacts have times inside a step")
         } else if self.is_periodic {
             Some("space is periodic")
         } else if self.has_meshes {

@@ -34,6 +34,7 @@ pub fn start<T: Compiled>(
     let workers = Workers::new(execution.threads).map_err(EngineError::from)?;
     let setting = Setting::new(first, execution, workers.threads());
     let width = setting.width;
+    let meetings = (0..workers.threads()).map(|_| setting.meetings(first)).collect();
     let mut portions: Vec<_> =
         (0..count).step_by(width).map(|start| (start..count.min(start + width), None)).collect();
     workers.each(&mut portions, |(scenes, portion)| {
@@ -61,6 +62,7 @@ pub fn start<T: Compiled>(
         check: QuickCheck::new(first),
         setting,
         workers,
+        meetings,
         packs: Vec::new(),
         alone: Vec::new(),
         places: vec![Place::Nowhere; count],

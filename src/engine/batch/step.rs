@@ -1,12 +1,15 @@
-//! Step: all scenes of a pack take steps together, their contacts at the end of each.
+//! Step: all scenes of a pack take steps together.
 //!
-//! No body moves while the contacts of a step take effect, so a contact is found and acts
-//! at once, in the order that it has in a scene alone: body by body, what is fixed before
-//! other bodies, each by its index. An impulse reaches only the lanes that touch.
+//! Contacts take effect inside a step (`within`) or at its end. There no body moves while they
+//! do, so a contact is found and acts at once, in the order that it has in a scene alone: body
+//! by body, what is fixed before other bodies, each by its index. An impulse reaches only the
+//! lanes that touch.
 
 use super::meet::{Meeting, With, take_effect};
-use super::pack::{Moving, Pack, Values};
+use super::moving::{Moving, Values};
+use super::pack::Pack;
 use super::setting::Setting;
+use super::within::{self, Meetings};
 use crate::bodies::Columns3;
 use crate::contact::with_law;
 use crate::engine::Event;
@@ -25,20 +28,22 @@ use crate::vec3::Vec3;
 /// The collisions of a pack, each with the number of its scene.
 pub type Events<T> = Vec<(usize, Event<T>)>;
 
-/// Takes steps with a pack, and writes the collisions down where that is asked for.
+/// Takes steps with a pack, with contacts within them if there are `meetings`, and writes the
+/// collisions down where that is asked for.
 pub fn advance<T: Real>(
     setting: &Setting<T>,
     pack: &mut Pack<T>,
+    meetings: Option<&mut Meetings<T>>,
     steps: u64,
     events: Option<&mut Events<T>>,
 ) {
-    in_lanes!(sweep setting.width, take_steps::<T>(setting, pack, steps, events));
+    in_lanes!(sweep setting.width, take_steps::<T>(setting, pack, meetings, steps, events));
 }
 
-/// Takes steps in all lanes, and writes the collisions down where that is asked for.
 fn take_steps<L: Lane<Scalar = T>, T: Real>(
     setting: &Setting<T>,
     pack: &mut Pack<T>,
+    meetings: Option<&mut Meetings<T>>,
     steps: u64,
     mut events: Option<&mut Events<T>>,
 ) {
@@ -49,17 +54,25 @@ fn take_steps<L: Lane<Scalar = T>, T: Real>(
         (true, Integrator::ExplicitEuler) => flight::<L, ExplicitEuler>(is_compensated),
         (true, Integrator::VelocityVerlet) => flight::<L, VelocityVerlet>(is_compensated),
     };
-    with_law!(setting.plan.surface, law => {
-        let act = |moving: &mut Moving<T>, met: &Meeting<L>, events: Option<&mut Events<T>>| {
-            take_effect(setting, law, moving, met, events);
-        };
-        pack.moving.begin();
+    pack.moving.begin();
+    let mut step = |contacts: &mut dyn FnMut(&mut Pack<T>, Option<&mut Events<T>>)| {
         for _ in 0..steps {
             fly(pack);
             pack.moving.count_step();
-            contacts::<L, T>(setting, pack, &act, events.as_deref_mut());
+            contacts(pack, events.as_deref_mut());
         }
-    });
+    };
+    match meetings {
+        Some(meetings) => step(&mut |pack, events| {
+            within::contacts::<L, T>(setting, pack, meetings, events);
+        }),
+        None => with_law!(setting.plan.surface, law => {
+            let act = |moving: &mut Moving<T>, met: &Meeting<L>, events: Option<&mut Events<T>>| {
+                take_effect(setting, law, moving, met, events);
+            };
+            step(&mut |pack, events| contacts::<L, T>(setting, pack, &act, events));
+        }),
+    }
     pack.moving.end();
     let broken = !finite::<L>(pack);
     if broken.any() {

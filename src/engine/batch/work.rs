@@ -52,8 +52,10 @@ impl<T: Compiled> Batch<T> {
 
     /// Lets all scenes go on: those in lanes to their goals.
     pub(in crate::engine) fn go_on(&mut self, alone: &Going<'_, T>) {
-        let Self { setting, workers, packs, .. } = self;
-        workers.each(packs, |pack| pack.go(setting, u64::MAX, None));
+        let Self { setting, workers, meetings, packs, .. } = self;
+        workers.each_with(meetings, packs, |meetings, pack| {
+            pack.go(setting, meetings.as_mut(), u64::MAX, None);
+        });
         workers.each(&mut self.alone, |one| {
             if !self.faults.contains_key(&one.scene) {
                 let done = alone(one.scene, &mut one.world);
@@ -71,10 +73,12 @@ impl<T: Compiled> Batch<T> {
     ) {
         self.set_goals(|seat| seat.steps.saturating_add(steps_in(duration, seat.exact_dt)));
         self.recorded.resize_with(self.packs.len(), Vec::new);
-        let Self { setting, workers, packs, alone, recorded, faults, .. } = self;
+        let Self { setting, workers, meetings, packs, alone, recorded, faults, .. } = self;
         while packs.iter().any(Pack::is_under_way) {
             let mut pieces: Vec<_> = packs.iter_mut().zip(&mut *recorded).collect();
-            workers.each(&mut pieces, |(pack, events)| pack.go(setting, REPORTED, Some(events)));
+            workers.each_with(meetings, &mut pieces, |meetings, (pack, events)| {
+                pack.go(setting, meetings.as_mut(), REPORTED, Some(events));
+            });
             for events in &mut *recorded {
                 events.sort_by_key(|(scene, _)| *scene);
                 events.iter().for_each(|(scene, event)| on_event(*scene, event));

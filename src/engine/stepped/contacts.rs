@@ -12,7 +12,7 @@ use crate::real::Real;
 
 /// Two surfaces that touch within the step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Contact<T> {
+pub(in crate::engine) struct Contact<T> {
     /// Rank among the contacts of one time.
     pub rank: Rank,
     /// The slot of the first body.
@@ -26,7 +26,7 @@ pub(super) struct Contact<T> {
 /// The first body's index, then what it meets: fixed features before bodies,
 /// each by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Rank(u64);
+pub(in crate::engine) struct Rank(u64);
 
 const IS_BODY: u64 = 1 << 31;
 

@@ -134,6 +134,23 @@ fn find_due<T: Real>(
     queue.begin(ahead.iter().map(|&contact| Due { contact, count: struck.count(&contact) }));
 }
 
+/// Lets the contacts within a step take effect whose first ones are `found`, when all that can
+/// touch in it are candidates, in open space.
+pub(super) fn collide_found<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    clock: &Clock,
+    account: &mut Account,
+    record: Option<&mut Record<T>>,
+    found: &[Contact<T>],
+    fastest: T,
+) {
+    let mut stretch = Stretch { from: setting.dt, until: T::ZERO, fastest };
+    region.pending.queue.begin(found.iter().map(|&contact| Due { contact, count: 0 }));
+    // It ends before all are taken if a speed is no number.
+    take_due(setting, region, clock, account, record, &mut stretch, Vec::new());
+}
+
 /// Takes the contacts of a stretch in their order. False if one has made a body so
 /// fast that the candidates are no longer complete: then the rest of the stretch is
 /// left.

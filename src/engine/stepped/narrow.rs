@@ -5,7 +5,7 @@ use super::path::{Path, Stretch};
 use super::state::State;
 use super::struck::Struck;
 use crate::bodies::{Figure, at};
-use crate::contact::past_contact;
+use crate::contact::{PastContact, past_contact};
 use crate::lane::{Lane, Mask, ones};
 use crate::motion::flight::Wrap;
 use crate::real::Real;
@@ -160,17 +160,12 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
         let mut touching = L::ZERO.lt(L::ZERO);
         let mut first = L::ZERO;
         self.each_image(space, offset, back, |offset: Vec3<L>| {
-            let contact = past_contact(offset, relative, reach);
-            // What touches at the beginning of its path, by whatever rounding or an
-            // earlier step has left, collides then if it approaches.
-            let is_before = contact.ago.gt(since);
-            let start = offset - relative * since;
-            let mut met = contact.met & (!is_before | relative.dot(start).lt(L::ZERO));
+            let PastContact { mut met, ago } = met_since(offset, relative, reach, since);
             if self.is_again {
+                let start = offset - relative * since;
                 let gap = start.length_squared() - reach * reach;
                 met = met & gap.gt(reach * reach * L::ratio(1, 1024));
             }
-            let ago = L::select(is_before, since, contact.ago);
             met = met & ago.ge(until) & (!touching | ago.gt(first));
             first = L::select(met, ago, first);
             touching = touching | met;
@@ -211,6 +206,23 @@ impl<T: Real> Detection<T> for &WithinStep<'_, T> {
         });
         (ago.ge(L::splat(until)), ago)
     }
+}
+
+/// Which pairs meet on the paths that they have had `since` before the end of the step, and
+/// how long before it. What touches at the beginning of its path, by whatever rounding or an
+/// earlier step has left, collides then if it approaches.
+#[inline(always)]
+pub(in crate::engine) fn met_since<L: Lane>(
+    offset: Vec3<L>,
+    relative: Vec3<L>,
+    reach: L,
+    since: L,
+) -> PastContact<L> {
+    let PastContact { met, ago } = past_contact(offset, relative, reach);
+    let is_before = ago.gt(since);
+    let start = offset - relative * since;
+    let met = met & (!is_before | relative.dot(start).lt(L::ZERO));
+    PastContact { met, ago: L::select(is_before, since, ago) }
 }
 
 impl<T: Real> WithinStep<'_, T> {

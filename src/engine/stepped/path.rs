@@ -11,7 +11,7 @@ use crate::vec3::Vec3;
 /// How the integrator's path runs back from the end of a step:
 /// `c(τ) = c − uτ + ½ b τ²`, `u = v − lag`, τ before the end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Path<T> {
+pub(in crate::engine) struct Path<T> {
     /// Length of the step.
     pub duration: T,
     /// By how much the velocity at the end differs from the path's.

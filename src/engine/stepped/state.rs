@@ -23,7 +23,7 @@ const REORDERED: usize = 1 << 11;
 /// that neighbours in space are neighbours in memory; the cold ones, read only
 /// at a contact, in the scene's order.
 #[derive(Debug)]
-pub(super) struct State<T: Real> {
+pub(in crate::engine) struct State<T: Real> {
     /// Centres by slot, length.
     pub position: Columns3<T>,
     /// Velocities by slot, length per time.
@@ -55,7 +55,7 @@ pub(super) struct State<T: Real> {
 
 /// What the rounding of sums leaves out.
 #[derive(Debug)]
-pub(super) struct Low<T: Real> {
+pub(in crate::engine) struct Low<T: Real> {
     /// Of positions, length.
     pub position: Columns3<T>,
     /// Of velocities, length per time; empty where nothing changes them in flight.

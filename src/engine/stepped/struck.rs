@@ -40,6 +40,20 @@ impl<T: Real> Struck<T> {
         self.slots.is_empty()
     }
 
+    /// No contacts yet, from now on in steps of another length.
+    pub fn begin(&mut self, duration: T) {
+        self.clear();
+        if duration != self.duration {
+            self.duration = duration;
+            self.since.fill(duration);
+        }
+    }
+
+    /// The slots of the bodies that have had contacts, some more than once.
+    pub fn slots(&self) -> &[u32] {
+        &self.slots
+    }
+
     /// Forgets the step.
     pub fn clear(&mut self) {
         for slot in self.slots.drain(..) {
