@@ -29,12 +29,12 @@ use std::hint::black_box;
 use std::process::{Command, Stdio};
 
 use carom::contact::{self, Party, Surface, collide, contact_time};
-use carom::engine::{Compiled, EventDriven, Execution, Order, Stepped};
+use carom::engine::{Batch, Compiled, EventDriven, Execution, Order, Stepped};
 use carom::lane::Lane;
 use carom::mat3::Mat3;
 use carom::motion::rotation::turned;
 use carom::real::Real;
-use carom::scene::Impact;
+use carom::scene::{EngineKind, Impact, Scene};
 use carom::surroundings::{Capsule, Cuboid, Feature, FixedSphere, Plane, Torus};
 use carom::vec3::Vec3;
 use columns::uniform;
@@ -49,6 +49,10 @@ const END: f64 = 1e9;
 /// Bodies of the fluids; those of the stepped gases.
 const BODIES: u64 = 1_372;
 const GAS: usize = 4_000;
+
+/// Scenes of a batch, and bodies of each; they are as many as of a small world.
+const SCENES: usize = 64;
+const FEW: usize = 16;
 
 /// How often the kernels go over their columns in one unit, and the length of these.
 const SPHERES: usize = 960;
@@ -134,6 +138,15 @@ fn rows() -> Vec<Row> {
             rows.push(steps::<f64>("f64", surface, impact));
         }
     }
+    for surface in [Surface::Smooth, Surface::Rough] {
+        for impact in [Impact::EndOfStep, Impact::SubStep] {
+            rows.push(batch_steps(surface, impact));
+        }
+        rows.extend([8, 16, 32, 64].map(|bodies| few(bodies, surface)));
+    }
+    for engine in [EngineKind::Stepped, EngineKind::EventDriven] {
+        rows.push(set_up(engine));
+    }
     kernels::<f32>("f32", &mut rows);
     kernels::<f64>("f64", &mut rows);
     times(&mut rows);
@@ -178,6 +191,71 @@ fn steps<T: Compiled>(precision: &str, surface: Surface, impact: Impact) -> Row 
         name: format!("stepped, {GAS} {surface} bodies, {precision}, {impact}"),
         unit: "body and step",
         units: 200,
+        work: Box::new(work),
+    }
+}
+
+/// Steps of a batch of small gases.
+fn batch_steps(surface: Surface, impact: Impact) -> Row {
+    let work = move |steps: u64| {
+        let mut scene = scenes::gas::<f64>(FEW, surface)?;
+        scene.engine = EngineKind::Stepped;
+        scene.stepped.impact = impact;
+        let mut batch = Batch::varied(&scene, SCENES, Execution::new().threads(1), |k, scene| {
+            scene.bodies.velocity[0][0] += 1e-3 * k as f64;
+        })?;
+        batch.advance_steps(200)?;
+        batch.advance_steps(steps)?;
+        Ok(steps * (FEW * SCENES) as u64)
+    };
+    Row {
+        name: format!("a batch of {FEW} {surface} bodies, f64, {impact}"),
+        unit: "body and step",
+        units: 200,
+        work: Box::new(work),
+    }
+}
+
+/// Scenes that a batch is made of.
+fn set_up(engine: EngineKind) -> Row {
+    let work = move |scenes: u64| {
+        let mut scene = scenes::gas::<f64>(FEW, Surface::Smooth)?;
+        scene.engine = engine;
+        let vary = |k: usize, scene: &mut Scene<f64>| {
+            scene.bodies.velocity[0][0] += 1e-3 * k as f64;
+        };
+        let execution = Execution::new().threads(1);
+        let made = |count: u64| Batch::varied(&scene, count as usize, execution, vary);
+        made(1)?;
+        if scenes > 0 {
+            made(scenes)?;
+        }
+        Ok(scenes)
+    };
+    Row {
+        name: format!("set-up of {FEW} bodies in a batch, f64, {engine:?}"),
+        unit: "scene",
+        units: 1_000,
+        work: Box::new(work),
+    }
+}
+
+/// Collisions of a small gas in the event-driven engine.
+fn few(bodies: usize, surface: Surface) -> Row {
+    let work = move |collisions: u64| {
+        let scene = scenes::gas::<f64>(bodies, surface)?;
+        let mut world = EventDriven::with_execution(scene, Execution::new().threads(1))?;
+        world.advance_about(END, 1_000, None)?;
+        let before = world.collisions().total();
+        if collisions > 0 {
+            world.advance_about(END, collisions, None)?;
+        }
+        Ok(world.collisions().total() - before)
+    };
+    Row {
+        name: format!("event-driven, {bodies} {surface} bodies in a container, f64"),
+        unit: "collision",
+        units: 20_000,
         work: Box::new(work),
     }
 }

@@ -15,14 +15,14 @@ static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
 /// and then.
 const A_CALL: u64 = 1 << 10;
 
-fn batch<T: Compiled>(surface: Surface, threads: usize) -> Batch<T> {
+fn batch<T: Compiled>(surface: Surface, impact: Impact, threads: usize) -> Batch<T> {
     let t3 = |vector: [f64; 3]| vector.map(T::from_f64);
     let spheres = Spheres::random(16).radius(0.5).temperature(1.0).spin_temperature(1.0);
     let scene = Scene::<T>::builder()
         .engine(EngineKind::Stepped)
         .gravity(t3([0.0, 0.0, -1.0]))
         .surface(surface)
-        .impact(Impact::EndOfStep)
+        .impact(impact)
         .dt(0.01)
         .surroundings(Cuboid::container(t3([0.0; 3]), t3([4.0; 3])))
         .spheres(spheres.within([0.0; 3], [4.0; 3]).seed(1))
@@ -56,17 +56,19 @@ fn allocated<T: Compiled>(batch: &mut Batch<T>, calls: u64) -> (u64, u64) {
 #[test]
 fn nothing_is_allocated_under_way() {
     const SURFACES: [Surface; 2] = [Surface::Smooth, Surface::Rough];
-    for surface in SURFACES {
+    const IMPACTS: [Impact; 2] = [Impact::EndOfStep, Impact::SubStep];
+    let kinds = || SURFACES.iter().flat_map(|surface| IMPACTS.map(|impact| (*surface, impact)));
+    for (surface, impact) in kinds() {
         for (bytes, collisions) in [
-            allocated(&mut batch::<f32>(surface, 1), 100),
-            allocated(&mut batch::<f64>(surface, 1), 100),
+            allocated(&mut batch::<f32>(surface, impact, 1), 100),
+            allocated(&mut batch::<f64>(surface, impact, 1), 100),
         ] {
-            assert_eq!(bytes, 0, "{surface}");
+            assert_eq!(bytes, 0, "{surface}, {impact}");
             assert!(collisions > 20_000, "{collisions}");
         }
     }
-    for surface in SURFACES {
-        let (bytes, _) = allocated(&mut batch::<f64>(surface, 2), 100);
+    for (surface, impact) in kinds() {
+        let (bytes, _) = allocated(&mut batch::<f64>(surface, impact, 2), 100);
         assert!(bytes <= 100 * A_CALL, "{bytes} on two threads");
     }
 }

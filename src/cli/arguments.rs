@@ -104,12 +104,13 @@ Examples:
 
 Exit status: 0 done, 2 a mistake in the arguments, 1 for frames that cannot be read.")]
     Analyse(AnalyseArguments),
-    /// Draw the columns of a time series against its first one.
+    /// Draw the columns of a table against its first one, or how their values are distributed.
     #[command(after_help = "\
 Examples:
   carom run gas.toml --series gas.csv --series-every 0.1
   carom plot gas.csv                    draws gas.svg
-  carom plot gas.csv -o energy.pdf --columns energy,kinetic,potential --width 302")]
+  carom plot gas.csv -o energy.pdf --columns energy,kinetic,potential --width 302
+  carom plot breaks.csv --histogram --columns pairs,x[0]   of the rows of a batch")]
     Plot(PlotArguments),
     /// Run a scene once for each value of some of its keys, side by side on all cores.
     ///
@@ -420,6 +421,17 @@ pub struct PlotArguments {
     /// Which columns to draw [default: all that have numbers]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub columns: Vec<String>,
+
+    /// Draw how the values of each column are distributed
+    #[arg(long)]
+    pub histogram: bool,
+
+    /// Bins of a histogram [default: as many as the values tell apart]
+    #[arg(
+        long, value_name = "NUMBER", requires = "histogram",
+        value_parser = clap::value_parser!(u32).range(1..=10_000)
+    )]
+    pub bins: Option<u32>,
 }
 
 impl SceneArguments {

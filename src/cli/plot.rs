@@ -1,4 +1,6 @@
-//! `carom plot`: a time series as a picture.
+//! `carom plot`: the columns of a table as a picture.
+
+mod histogram;
 
 use std::path::Path;
 
@@ -30,11 +32,37 @@ type Columns = Vec<(String, Vec<Option<f64>>)>;
 pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let path = &arguments.file;
     let output = arguments.output.clone().unwrap_or_else(|| path.with_extension("svg"));
-    draw(path, &output, &arguments.columns, &arguments.pictures.look())
+    let charts = |title: &str, columns: Columns| {
+        let columns = chosen(columns, &arguments.columns, path)?;
+        Ok(histogram::charts(title, &columns, arguments.bins))
+    };
+    let look = arguments.pictures.look();
+    match arguments.histogram {
+        true => write(path, &output, charts, &look),
+        false => draw(path, &output, &arguments.columns, &look),
+    }
 }
 
 /// Draws columns of a file, or all of them, as a picture.
 pub fn draw(path: &Path, output: &Path, names: &[String], look: &Look) -> Result<(), Failure> {
+    let over_time = |title: &str, mut columns: Columns| {
+        let (time, values) = columns[0].clone();
+        if names.is_empty() {
+            columns.remove(0);
+        }
+        let columns = chosen(columns, names, path)?;
+        Ok(charts(title, &time, &values, &columns))
+    };
+    write(path, output, over_time, look)
+}
+
+/// Draws what is made of the columns of a file, as a picture.
+fn write(
+    path: &Path,
+    output: &Path,
+    charts: impl FnOnce(&str, Columns) -> Result<Vec<Chart>, Failure>,
+    look: &Look,
+) -> Result<(), Failure> {
     let shown = output.display();
     let format = Format::of(output).ok_or_else(|| {
         Failure::Argument(format!("-o is {shown}; its ending must be .svg, .png or .pdf"))
@@ -43,14 +71,9 @@ pub fn draw(path: &Path, output: &Path, names: &[String], look: &Look) -> Result
     let Destination::Regular(target) = Destination::of(output).map_err(refused)? else {
         return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
     };
-    let mut columns = read(path)?;
-    let (time, values) = columns[0].clone();
-    if names.is_empty() {
-        columns.remove(0);
-    }
-    let columns = chosen(columns, names, path)?;
+    let columns = read(path)?;
     let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
-    let picture = Picture { charts: charts(&title, &time, &values, &columns) };
+    let picture = Picture { charts: charts(&title, columns)? };
     let bytes = picture.bytes(format, look);
     let bytes =
         bytes.map_err(|reason| refused(OutputError::Path { path: output.into(), reason }))?;

@@ -6,9 +6,12 @@ use super::checked::Scene;
 use super::compiled::Buildable;
 use super::error::SceneError;
 use super::settings::{Encounters, MOST_STEPS};
+use crate::bodies::{Bodies, PerBody};
 use crate::column::Column;
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::surroundings::{Feature, Features, Shape};
+use crate::vec3::Vec3;
 
 /// The most pairs of bodies, and of bodies and features, that are looked at one by one.
 const MOST_PAIRS: usize = 10_000;
@@ -73,20 +76,35 @@ impl<T: Real> QuickCheck<T> {
         if !columns.all(is_right) {
             return false;
         }
-        let sphere = |body| (bodies.position_of(body), bodies.radius.of(body));
         (0..bodies.len()).all(|body| {
-            let (center, radius) = sphere(body);
-            let is_apart = |other| {
-                let (place, other) = sphere(other);
-                let reach = radius + other;
-                (center - place).length_squared() > reach * reach
-            };
+            let (center, radius) = (bodies.position_of(body), bodies.radius.of(body));
             let is_outside =
                 |feature: &Feature<T>| feature.clearance(center, radius).gap >= T::ZERO;
             (scene.encounters == Encounters::None || self.features.alone().iter().all(is_outside))
-                && (scene.encounters != Encounters::All || (0..body).all(is_apart))
+                && (scene.encounters != Encounters::All || is_apart(bodies, body))
         })
     }
+}
+
+/// Whether a body is apart from all before it.
+fn is_apart<T: Real>(bodies: &Bodies<T>, body: usize) -> bool {
+    let [x, y, z] = bodies.position.refs().each(|column| &column[..body]);
+    let (center, radius) = (bodies.position_of(body), bodies.radius.of(body));
+    let mut is_near = false;
+    // Without a branch, so that several are looked at at once.
+    let mut look = |other: usize, reach: T| {
+        let offset = center - Vec3::new(x[other], y[other], z[other]);
+        let is_apart = offset.length_squared() > reach * reach;
+        is_near |= !is_apart;
+    };
+    match &bodies.radius {
+        PerBody::Same(other) => {
+            let reach = radius + *other;
+            (0..body).for_each(|k| look(k, reach));
+        }
+        PerBody::Each(others) => (0..body).for_each(|k| look(k, radius + others[k])),
+    }
+    !is_near
 }
 
 impl<T: Buildable> Scene<T> {

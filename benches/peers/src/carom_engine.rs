@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::error::Error;
 
 use carom::bodies::{Bodies, BodiesError, PerBody};
-use carom::engine::{self, Compiled, Execution};
+use carom::engine::{self, Batch, Compiled, Execution};
 use carom::motion::Integrator;
 use carom::scene::{self, EngineKind, Impact, OrientationUpdate};
 use carom::surroundings::{Cuboid, Mesh, MeshError, Plane};
@@ -13,6 +13,7 @@ use carom::vec3::Vec3;
 use crate::mesh;
 use crate::peer::{Collisions, Peer, PeerError, Precision, World};
 use crate::scene::{Encounters, RADIUS, Scene, Sphere, Surroundings};
+use crate::several::Several;
 
 /// How carom is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,9 @@ enum Settings {
     SubStep,
     /// No steps: from collision to collision.
     EventDriven,
+    /// Many scenes in lanes: as it comes, and with contacts inside the step.
+    Batch,
+    BatchSubStep,
 }
 
 /// Moments of inertia of the solid spheres of mass 1.
@@ -50,6 +54,17 @@ impl Peer for Carom {
         20
     }
 
+    fn worlds(&self, scenes: &[Scene], threads: usize) -> Result<Box<dyn World>, PeerError> {
+        if !matches!(self.settings, Settings::Batch | Settings::BatchSubStep) {
+            return Several::of(self, scenes, threads);
+        }
+        let batch = match self.precision {
+            Precision::F32 => self.batch::<f32>(scenes, threads),
+            Precision::F64 => self.batch::<f64>(scenes, threads),
+        };
+        batch.map_err(|error| PeerError::Engine { engine: self.name, message: error.to_string() })
+    }
+
     fn world(&self, scene: &Scene, threads: usize) -> Result<Box<dyn World>, PeerError> {
         let world = match self.precision {
             Precision::F32 => self.boxed::<f32>(scene, threads),
@@ -68,6 +83,20 @@ impl Carom {
         let execution = Execution::new().threads(threads);
         let world = engine::World::<T>::new(translated(scene, self.settings)?, execution)?;
         Ok(Box::new(CaromWorld { name: self.name, world, dt: scene.dt, bodies: OnceCell::new() }))
+    }
+
+    fn batch<T: Compiled>(
+        &self,
+        scenes: &[Scene],
+        threads: usize,
+    ) -> Result<Box<dyn World>, Box<dyn Error>> {
+        let all: Result<Vec<_>, _> =
+            scenes.iter().map(|scene| translated::<T>(scene, self.settings)).collect();
+        let all = all?;
+        let execution = Execution::new().threads(threads);
+        let batch = Batch::made(all.len(), execution, |k| Ok(all[k].clone()))?;
+        let bodies = scenes.first().map_or(0, |scene| scene.spheres.len());
+        Ok(Box::new(CaromBatch { name: self.name, batch, bodies }))
     }
 }
 
@@ -99,7 +128,11 @@ fn translated<T: Compiled>(
         Surroundings::Terrain(terrain) => builder.surroundings(triangles(&terrain.mesh)?),
     };
     builder = match settings {
-        Settings::Defaults => builder.engine(EngineKind::Stepped),
+        Settings::Defaults | Settings::Batch => builder.engine(EngineKind::Stepped),
+        Settings::BatchSubStep => builder
+            .engine(EngineKind::Stepped)
+            .impact(Impact::SubStep)
+            .integrator(Integrator::VelocityVerlet),
         Settings::SubStep => builder
             .engine(EngineKind::Stepped)
             .impact(Impact::SubStep)
@@ -184,6 +217,55 @@ impl<T: Compiled> World for CaromWorld<T> {
     }
 }
 
+struct CaromBatch<T: Compiled> {
+    name: &'static str,
+    batch: Batch<T>,
+    /// Of each scene.
+    bodies: usize,
+}
+
+impl<T: Compiled> CaromBatch<T> {
+    fn of<R>(&self, body: usize, of: impl Fn(&Bodies<T>, usize) -> R) -> R {
+        let (scene, body) = (body / self.bodies, body % self.bodies);
+        of(&self.batch.bodies(scene).expect("no scene of a gas goes wrong"), body)
+    }
+}
+
+impl<T: Compiled> World for CaromBatch<T> {
+    fn advance(&mut self, steps: usize) -> Result<(), PeerError> {
+        let done = self.batch.advance_steps(steps as u64);
+        done.map_err(|error| PeerError::Engine { engine: self.name, message: error.to_string() })
+    }
+
+    fn advance_counted(&mut self, steps: usize) -> Result<Option<Collisions>, PeerError> {
+        let count = |batch: &Batch<T>| {
+            batch.collisions().fold([0, 0], |[pairs, surroundings], collisions| {
+                [pairs + collisions.pairs, surroundings + collisions.surroundings]
+            })
+        };
+        let before = count(&self.batch);
+        self.advance(steps)?;
+        let after = count(&self.batch);
+        Ok(Some(Collisions { pairs: after[0] - before[0], surroundings: after[1] - before[1] }))
+    }
+
+    fn position(&self, body: usize) -> [f64; 3] {
+        self.of(body, |bodies, body| array(bodies.position_of(body)))
+    }
+
+    fn velocity(&self, body: usize) -> [f64; 3] {
+        self.of(body, |bodies, body| array(bodies.velocity_of(body)))
+    }
+
+    fn spin(&self, body: usize) -> [f64; 3] {
+        self.of(body, |bodies, body| array(bodies.spin_of(body)))
+    }
+
+    fn orientation(&self, body: usize) -> [f64; 4] {
+        self.of(body, |bodies, body| quaternion(bodies.orientation_of(body).rows().map(T::to_f64)))
+    }
+}
+
 fn array<T: Compiled>(vector: Vec3<T>) -> [f64; 3] {
     vector.to_array().map(T::to_f64)
 }
@@ -222,6 +304,18 @@ fn sub_step() -> [Box<dyn Peer>; 2] {
     [
         carom("carom f32, sub-step", Precision::F32, Settings::SubStep),
         carom("carom f64, sub-step", Precision::F64, Settings::SubStep),
+    ]
+}
+
+/// carom's batches, and its worlds one by one as they come.
+pub fn batches() -> Vec<Box<dyn Peer>> {
+    vec![
+        carom("carom f32, batch", Precision::F32, Settings::Batch),
+        carom("carom f64, batch", Precision::F64, Settings::Batch),
+        carom("carom f32, batch, sub-step", Precision::F32, Settings::BatchSubStep),
+        carom("carom f64, batch, sub-step", Precision::F64, Settings::BatchSubStep),
+        carom("carom f32, one by one", Precision::F32, Settings::Defaults),
+        carom("carom f64, one by one", Precision::F64, Settings::Defaults),
     ]
 }
 

@@ -19,6 +19,7 @@ mod reference;
 mod report;
 mod rounds;
 mod scene;
+mod several;
 
 use std::process::ExitCode;
 
@@ -26,6 +27,7 @@ use clap::{Parser, ValueEnum};
 
 use peer::{Peer, PeerError, Timing};
 use report::Row;
+use scene::Scene;
 
 /// Measure carom and other rigid-body engines on the same scenes.
 #[derive(Parser)]
@@ -54,6 +56,8 @@ struct Arguments {
 enum SceneName {
     /// Gas in a container: time, energy, collisions.
     Gas,
+    /// Many small gases: time.
+    Batch,
     /// Bodies that never meet: time.
     FreeFlight,
     /// A ball on a floor: apex after 1,000 bounces.
@@ -73,6 +77,8 @@ struct Extent {
     gas: Vec<usize>,
     /// No more bodies than this in a gas whose energy is followed.
     gas_accuracy: usize,
+    /// Small gases of a batch.
+    scenes: usize,
     free_flight: Vec<usize>,
     /// Body-steps of one timed run.
     body_steps: usize,
@@ -93,6 +99,9 @@ const FAST: f64 = 1000.0;
 const FAST_SPHERES: usize = 100;
 const FAST_STEPS: usize = 4;
 
+/// Bodies of each of many small gases.
+const TABLE: usize = 16;
+
 /// Steps in which a sphere of the gas collides 22 times with others by
 /// Enskog's theory: 4 √(π/3) n σ² χ times the distance of 1,080 · 0.02 σ.
 const ACCURACY_STEPS: usize = 1080;
@@ -103,6 +112,7 @@ impl Extent {
             Self {
                 gas: vec![1_000],
                 gas_accuracy: 1_000,
+                scenes: 64,
                 free_flight: vec![10_000],
                 body_steps: 200_000,
                 rounds: 3,
@@ -116,6 +126,7 @@ impl Extent {
             Self {
                 gas: vec![1_000, 10_000, 100_000],
                 gas_accuracy: 10_000,
+                scenes: 1_024,
                 free_flight: vec![100_000, 1_000_000],
                 body_steps: 2_000_000,
                 rounds: 5,
@@ -167,6 +178,8 @@ fn measured(arguments: &Arguments) -> Result<Vec<Row>, PeerError> {
     }
     let mut with_meshes = carom_engine::with_meshes();
     with_meshes.extend(rapier_engine::with_meshes());
+    let mut batches = carom_engine::batches();
+    batches.extend(rapier_engine::engines(rapier_engine::Settings::Tuned));
     let mut rows = Vec::new();
     for &scene in SceneName::value_variants() {
         if !arguments.scenes.is_empty() && !arguments.scenes.contains(&scene) {
@@ -178,6 +191,7 @@ fn measured(arguments: &Arguments) -> Result<Vec<Row>, PeerError> {
                     rows.extend(gas(&peers, &extent, bodies, threads)?);
                 }
             }
+            SceneName::Batch => rows.extend(batch(&batches, &extent, threads)?),
             SceneName::FreeFlight => {
                 for &bodies in &extent.free_flight {
                     for detection in [true, false] {
@@ -238,6 +252,23 @@ fn gas(
         });
     }
     Ok(rows)
+}
+
+/// Many small gases, each of its own seed.
+fn batch(peers: &[Box<dyn Peer>], extent: &Extent, threads: usize) -> Result<Vec<Row>, PeerError> {
+    let scenes: Vec<_> = (0..extent.scenes).map(|k| Scene::gas_of(TABLE, k as u128 + 1)).collect();
+    let bodies = scenes.len() * TABLE;
+    let steps = extent.steps(bodies);
+    let times =
+        rounds::interleaved(peers, extent.rounds, |peer| peer.gases(&scenes, steps, threads))?;
+    let row = |(peer, times): (&Box<dyn Peer>, _)| Row {
+        scene: format!("{} gases", scenes.len()),
+        bodies,
+        engine: peer.name(),
+        times: Some(times),
+        ..Row::default()
+    };
+    Ok(peers.iter().zip(times).map(row).collect())
 }
 
 /// Spheres over hills: steps of a timed run, and of one whose energy is

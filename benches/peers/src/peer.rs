@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::measure;
 use crate::mesh::Mesh;
 use crate::scene::{Scene, Surroundings};
+use crate::several::Several;
 
 /// The floating-point type that an engine computes in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,6 +99,17 @@ pub trait Peer {
     fn gas(&self, bodies: usize, steps: usize, threads: usize) -> Result<Timing, PeerError> {
         let world = self.world(&Scene::gas(bodies), threads)?;
         measure::gas(world, bodies, steps * self.haste())
+    }
+
+    /// Sets up many scenes of as many spheres.
+    fn worlds(&self, scenes: &[Scene], threads: usize) -> Result<Box<dyn World>, PeerError> {
+        Several::of(self, scenes, threads)
+    }
+
+    /// Time of many small gases.
+    fn gases(&self, scenes: &[Scene], steps: usize, threads: usize) -> Result<Timing, PeerError> {
+        let bodies = scenes.iter().map(|scene| scene.spheres.len()).sum();
+        measure::gas(self.worlds(scenes, threads)?, bodies, steps * self.haste())
     }
 
     /// Energy change and collisions of a gas in a container.

@@ -84,7 +84,12 @@ impl Scene {
     /// An equilibrated gas in a container: centres at random without overlap,
     /// Maxwellian velocities of zero mean, no spin.
     pub fn gas(bodies: usize) -> Self {
-        let mut random = Rand64::new(1);
+        Self::gas_of(bodies, 1)
+    }
+
+    /// The gas of a seed.
+    pub fn gas_of(bodies: usize, seed: u128) -> Self {
+        let mut random = Rand64::new(seed);
         let volume = bodies as f64 * std::f64::consts::PI / 6.0 / PACKING_FRACTION;
         let side = single(volume.cbrt());
         let positions = random_positions(bodies, side, &mut random);

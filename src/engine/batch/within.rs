@@ -5,7 +5,7 @@
 //! its lane for a stage ([`Stage`]), where contacts take effect in their order; the bodies that
 //! have collided go back into the lane.
 
-use super::moving::{Moving, Values};
+use super::moving::Values;
 use super::pack::Pack;
 use super::setting::Setting;
 use super::step::Events;
@@ -31,7 +31,8 @@ pub struct Meetings<T: Real> {
 impl<T: Real> Meetings<T> {
     /// For scenes of the shape of this one.
     pub fn new(scene: &Scene<T>, width: usize) -> Result<Self, EngineError> {
-        Ok(Self { found: vec![Vec::new(); width], stage: Stage::new(scene)? })
+        let found = (0..width).map(|_| Vec::with_capacity(Stage::room(scene))).collect();
+        Ok(Self { found, stage: Stage::new(scene)? })
     }
 
     /// The bytes that it holds.
@@ -49,12 +50,13 @@ pub(super) fn contacts<L: Lane<Scalar = T>, T: Real>(
     meetings: &mut Meetings<T>,
     mut events: Option<&mut Events<T>>,
 ) {
-    let fastest = fastest::<L, T>(setting, pack);
-    find::<L, T>(setting, pack, fastest, &mut meetings.found);
+    let change = change::<L, T>(setting, pack);
+    let fastest = fastest::<L, T>(pack, change);
+    find::<L, T>(setting, pack, [change, fastest], &mut meetings.found);
     let Meetings { found, stage } = meetings;
     let fastest = fastest.to_array();
     for (lane, found) in found.iter_mut().enumerate().filter(|(_, found)| !found.is_empty()) {
-        enter(setting, pack, lane, stage.state(), events.is_some());
+        enter::<L, T>(setting, pack, lane, stage.state(), events.is_some());
         let moving = &mut pack.moving;
         let seat = &mut moving.seats[lane];
         let (exact_dt, dt) = (seat.exact_dt, moving.dt[lane]);
@@ -72,26 +74,37 @@ pub(super) fn contacts<L: Lane<Scalar = T>, T: Real>(
         let collisions = &mut moving.seats[lane].collisions;
         collisions.pairs += collided.pairs;
         collisions.surroundings += collided.surroundings;
-        leave(pack, lane, stage);
+        leave::<L, T>(pack, lane, stage);
         found.clear();
     }
 }
 
-/// A speed that no body of a scene has exceeded in the step, with a margin for rounding.
+/// How much the field changes a velocity in a step.
 #[inline(always)]
-fn fastest<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, pack: &Pack<T>) -> L {
+fn change<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, pack: &Pack<T>) -> L {
+    if !setting.plan.has_field {
+        return L::ZERO;
+    }
+    let [x, y, z] = pack.gravity.refs().each(|column| L::load(column));
+    Vec3::new(x, y, z).length_squared().sqrt() * L::load(&pack.moving.dt)
+}
+
+/// A speed that a body has not exceeded in a step, with a margin for rounding.
+#[inline(always)]
+fn bound<L: Lane>(speed_squared: L, change: L) -> L {
+    (speed_squared.sqrt() + change) * L::ratio(65, 64)
+}
+
+/// A speed that no body of a scene has exceeded in the step.
+#[inline(always)]
+fn fastest<L: Lane<Scalar = T>, T: Real>(pack: &Pack<T>, change: L) -> L {
     let [x, y, z] = pack.moving.velocity.refs().each(|column| L::arrays(column).0);
     let mut most = L::ZERO;
     for body in 0..x.len() {
         let velocity = Vec3::<L>::from_arrays([x[body], y[body], z[body]]);
         most = most.greater(velocity.length_squared());
     }
-    let mut speed = most.sqrt();
-    if setting.plan.has_field {
-        let [x, y, z] = pack.gravity.refs().each(|column| L::load(column));
-        speed = speed + Vec3::new(x, y, z).length_squared().sqrt() * L::load(&pack.moving.dt);
-    }
-    speed * L::ratio(65, 64)
+    bound(most, change)
 }
 
 /// Finds the first contacts of all pairs, and of all bodies with what is fixed.
@@ -99,7 +112,7 @@ fn fastest<L: Lane<Scalar = T>, T: Real>(setting: &Setting<T>, pack: &Pack<T>) -
 fn find<L: Lane<Scalar = T>, T: Real>(
     setting: &Setting<T>,
     pack: &Pack<T>,
-    fastest: L,
+    [change, fastest]: [L; 2],
     found: &mut [Vec<ContactInStep<T>>],
 ) {
     let Pack { position, radius, moving, .. } = pack;
@@ -113,7 +126,11 @@ fn find<L: Lane<Scalar = T>, T: Real>(
     for a in 0..bodies {
         let (center, own) = (of(place, a), radius.load::<L>(a));
         for (feature, fixed) in setting.features.alone().iter().enumerate() {
-            let is_near = fixed.clearance(center, own).gap.le(way);
+            let gap = fixed.clearance(center, own).gap;
+            let mut is_near = gap.le(way);
+            if is_near.any() {
+                is_near = gap.le(bound(of(velocity, a).length_squared(), change) * dt);
+            }
             for lane in ones(is_near.bits()) {
                 at_feature(setting, pack, (a, feature as u32), lane, &mut found[lane]);
             }
@@ -167,7 +184,7 @@ fn at_feature<T: Real>(
 
 /// Puts the scene of a lane onto the stage; spins also where only events tell them.
 #[inline(never)]
-fn enter<T: Real>(
+fn enter<L: Lane<Scalar = T>, T: Real>(
     setting: &Setting<T>,
     pack: &mut Pack<T>,
     lane: usize,
@@ -175,9 +192,12 @@ fn enter<T: Real>(
     has_events: bool,
 ) {
     let Pack { position, low, radius, moving, .. } = pack;
-    let Moving { width, .. } = *moving;
+    let width = L::WIDTH;
     let copy = |from: &Column<T>, to: &mut Column<T>| {
-        to.iter_mut().zip(from.iter().skip(lane).step_by(width)).for_each(|(to, &x)| *to = x);
+        let from = L::arrays(from).0;
+        for body in 0..to.len().min(from.len()) {
+            to[body] = from[body].as_ref()[lane];
+        }
     };
     let copy_all = |from: &[Column<T>], to: &mut [Column<T>]| {
         to.iter_mut().zip(from).for_each(|(to, from)| copy(from, to));
@@ -216,13 +236,15 @@ fn enter<T: Real>(
 
 /// Puts the bodies that have collided back into their lane.
 #[inline(never)]
-fn leave<T: Real>(pack: &mut Pack<T>, lane: usize, stage: &mut Stage<T>) {
+fn leave<L: Lane<Scalar = T>, T: Real>(pack: &mut Pack<T>, lane: usize, stage: &mut Stage<T>) {
     let Pack { position, low, moving, .. } = pack;
-    let width = moving.width;
     let (struck, state) = stage.outcome();
     let put = |from: &[Column<T>], to: &mut [Column<T>]| {
         for (from, to) in from.iter().zip(to).filter(|(from, _)| !from.is_empty()) {
-            struck.iter().for_each(|&body| to[body as usize * width + lane] = from[body as usize]);
+            let to = L::arrays_mut(to).0;
+            for &body in struck {
+                to[body as usize].as_mut()[lane] = from[body as usize];
+            }
         }
     };
     put(&state.position, position);

@@ -21,7 +21,7 @@ use super::contacts::Contact;
 use super::find::{find, search_chunk};
 use super::impact::Outcome;
 use super::lanes::in_lanes;
-use super::narrow::WithinStep;
+use super::narrow::{WithinStep, touching_any};
 use super::neighbourhoods::Neighbour;
 use super::path::Stretch;
 use super::queue::Due;
@@ -202,6 +202,27 @@ fn look_ahead<T: Real>(
     stretch: Stretch<T>,
     further: &[Vec3<T>],
 ) {
+    region.pending.ahead.clear();
+    if region.nearby.are_all {
+        look_at_all(setting, region, contact, stretch);
+    } else {
+        look_at_neighbours(setting, region, contact, stretch, further);
+    }
+    pass_over_repeats(setting, region, stretch, further);
+    let Pending { queue, ahead, struck, .. } = &mut region.pending;
+    for &contact in &*ahead {
+        queue.add(Due { contact, count: struck.count(&contact) });
+    }
+}
+
+/// Finds what the bodies of a contact meet of what is near them.
+fn look_at_neighbours<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    contact: &Contact<T>,
+    stretch: Stretch<T>,
+    further: &[Vec3<T>],
+) {
     let (state, nearby, pending) = (&region.state, &mut region.nearby, &mut region.pending);
     nearby.neighbourhoods.know(&nearby.candidates, state.index.len(), &setting.workers);
     let near = &mut pending.near;
@@ -217,12 +238,24 @@ fn look_ahead<T: Real>(
     // Whole packs: no body meets itself.
     near.fill_up(setting.plan.gather_lanes, [contact.a; 2]);
     let detection = within(setting, &pending.struck, stretch, further);
-    pending.ahead.clear();
     search_chunk(setting, state, nearby, &detection, near, &mut pending.ahead);
-    pass_over_repeats(setting, region, stretch, further);
-    let Pending { queue, ahead, struck, .. } = &mut region.pending;
-    for &contact in &*ahead {
-        queue.add(Due { contact, count: struck.count(&contact) });
+}
+
+/// Finds what the bodies of a contact meet of all bodies and features, in open space.
+fn look_at_all<T: Real>(
+    setting: &Setting<T>,
+    region: &mut Region<T>,
+    contact: &Contact<T>,
+    stretch: Stretch<T>,
+) {
+    let (state, pending) = (&region.state, &mut region.pending);
+    let detection = within(setting, &pending.struck, stretch, &[]);
+    for slot in contact.bodies() {
+        if setting.plan.has_pairs {
+            let (lanes, found) = (setting.plan.gather_lanes, &mut pending.ahead);
+            in_lanes!(gather lanes, touching_any::<T>(&detection, state, slot, found));
+        }
+        detection.touching_parts(state, &setting.features, slot, &mut pending.ahead);
     }
 }
 
@@ -239,19 +272,19 @@ fn pass_over_repeats<T: Real>(
     if struck.is_empty() {
         return;
     }
-    let mut met = Chunk::default();
+    // Through the other side of a box they may well meet.
+    let mut again = setting.periodic.map(|_| Chunk::default());
     ahead.retain(|contact| {
         let is_again = contact.rank.is_pair() && struck.is_again(contact);
-        if is_again {
-            met.add_pair([contact.a, contact.b]);
+        if let (true, Some(again)) = (is_again, &mut again) {
+            again.add_pair([contact.a, contact.b]);
         }
         !is_again && !contact.bodies().any(|slot| struck.is_spent(slot))
     });
-    if setting.periodic.is_some() && !met.pairs[0].is_empty() {
-        // Through the other side of the box they may well meet.
+    if let Some(again) = again.filter(|again| !again.pairs[0].is_empty()) {
         let detection = within(setting, struck, stretch, further);
         let detection = WithinStep { is_again: true, ..detection };
-        search_chunk(setting, state, nearby, &detection, &met, ahead);
+        search_chunk(setting, state, nearby, &detection, &again, ahead);
         ahead.retain(|contact| !contact.bodies().any(|slot| struck.is_spent(slot)));
     }
 }

@@ -53,6 +53,12 @@ impl<T: Real> Queue<T> {
         Self { foreseen: Vec::new(), added: BinaryHeap::new() }
     }
 
+    /// Makes room for this many contacts of both kinds.
+    pub fn reserve(&mut self, contacts: usize) {
+        self.foreseen.reserve(contacts);
+        self.added.reserve(contacts);
+    }
+
     /// Begins with these contacts.
     pub fn begin(&mut self, all: impl Iterator<Item = Due<T>>) {
         self.added.clear();

@@ -28,6 +28,8 @@ pub(super) struct Nearby<T: Real> {
     pub candidates: Candidates,
     /// The candidates of each body, where contacts have times.
     pub neighbourhoods: Neighbourhoods,
+    /// Whether all bodies and features are candidates of each other, and in no list.
+    pub are_all: bool,
     /// The gap up to which the candidates are complete, length.
     pub skin: T,
     /// How far any body can have moved since the last search, length.
@@ -75,6 +77,7 @@ impl<T: Real> Region<T> {
                 broadphase: BroadPhase::new(&state.radius, len, &setting.features),
                 candidates: Candidates::default(),
                 neighbourhoods: Neighbourhoods::default(),
+                are_all: false,
                 skin: T::ZERO,
                 travelled: T::ZERO,
             },

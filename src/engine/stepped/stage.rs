@@ -16,7 +16,6 @@ use crate::engine::account::Account;
 use crate::engine::{Collisions, EngineError, Event, Execution};
 use crate::real::Real;
 use crate::scene::Scene;
-use crate::space::broadphase::Chunk;
 use crate::vec3::Vec3;
 
 /// A scene at the end of a step of flight, all of whose bodies are candidates of each other.
@@ -46,19 +45,19 @@ impl<T: Real> Stage<T> {
     pub fn new(scene: &Scene<T>) -> Result<Self, EngineError> {
         let setting = Setting::new(scene, Execution::new().threads(1))?;
         let mut region = Region::new(&setting, scene.bodies.clone());
-        let bodies = setting.plan.bodies as u32;
-        let mut all = Chunk::default();
-        for part in 0..setting.features.len() as u32 {
-            (0..bodies).for_each(|body| all.add_at_part(part, body));
-        }
-        if setting.plan.has_pairs {
-            for a in 0..bodies {
-                (a + 1..bodies).for_each(|b| all.add_pair([a, b]));
-            }
-        }
-        region.nearby.candidates.chunks.push(all);
+        let contacts = Self::room(scene);
+        region.pending.ahead.reserve(contacts);
+        region.pending.queue.reserve(contacts);
+        region.pending.struck.reserve(contacts);
+        region.nearby.are_all = true;
         region.nearby.skin = T::from_f64(f64::INFINITY);
         Ok(Self { setting, region, clock: Clock::default(), account: Account::default() })
+    }
+
+    /// Contacts of a step that there is room for from the start, so that steps allocate nothing:
+    /// many of each body.
+    pub fn room(scene: &Scene<T>) -> usize {
+        16 * scene.bodies.len()
     }
 
     /// The bodies, for the next scene to take their places.

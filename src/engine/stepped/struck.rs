@@ -40,6 +40,11 @@ impl<T: Real> Struck<T> {
         self.slots.is_empty()
     }
 
+    /// Makes room for this many contacts.
+    pub fn reserve(&mut self, contacts: usize) {
+        self.slots.reserve(2 * contacts);
+    }
+
     /// No contacts yet, from now on in steps of another length.
     pub fn begin(&mut self, duration: T) {
         self.clear();
@@ -79,6 +84,11 @@ impl<T: Real> Struck<T> {
     #[inline(always)]
     pub fn since(&self) -> &[T] {
         &self.since
+    }
+
+    /// The same, with what a column ends with.
+    pub fn padded_since(&self) -> &[T] {
+        self.since.padded()
     }
 
     /// Whether the last contact of the body in a slot has this rank.

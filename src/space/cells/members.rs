@@ -114,12 +114,24 @@ impl<'a, T: Real> Members<'a, T> {
         ends: [[u32; 2]; 3],
         found: &mut [u32],
     ) -> Option<usize> {
-        let [least, last] = array::from_fn(|k| ends.iter().map(|ends| ends[k] as usize).sum());
         // The last is beyond all numbers if one of them is nowhere.
-        let slots = self.slots.run(least * BLOCKS..=last * BLOCKS + (BLOCKS - 1));
-        let (Some(slots), Some(counts)) = (slots, self.counts.run(least..=last)) else {
-            return self.read_with_care([&xs, &ys, &zs], found);
-        };
+        let bounds = array::from_fn(|k| ends.iter().map(|ends| ends[k] as usize).sum());
+        let lines = [&xs[..], &ys, &zs];
+        let len = self.copy_run::<BLOCKS>(lines, bounds, found);
+        len.or_else(|| self.read_at_ends::<BLOCKS>(lines, found))
+    }
+
+    /// The bodies in cells between two numbers. `None` if these are not held in one run, or
+    /// cells have more bodies than room.
+    #[inline(always)]
+    fn copy_run<const BLOCKS: usize>(
+        &self,
+        [xs, ys, zs]: [&[u32]; 3],
+        [least, last]: [usize; 2],
+        found: &mut [u32],
+    ) -> Option<usize> {
+        let slots = self.slots.run(least * BLOCKS..=last * BLOCKS + (BLOCKS - 1))?;
+        let counts = self.counts.run(least..=last)?;
         // Of one length, as the compiler sees: an index into one is one into the other.
         let (slots, _) = slots.as_chunks::<BLOCKS>();
         let cells = slots.len().min(counts.len());
@@ -130,10 +142,10 @@ impl<'a, T: Real> Members<'a, T> {
             for y in ys {
                 let row = (y + z).wrapping_sub(least as u32);
                 for x in xs {
-                    let cell = row.wrapping_add(x) as usize;
+                    let cell = row.wrapping_add(*x) as usize;
                     let count = usize::from(counts[cell]);
                     if count > BLOCKS * STRIDE {
-                        return self.read_with_care([&xs, &ys, &zs], found);
+                        return None;
                     }
                     // Whole blocks are copied faster than a few numbers are counted.
                     let Some(blocks) = rest.as_chunks_mut().0.first_chunk_mut::<BLOCKS>() else {
@@ -149,16 +161,41 @@ impl<'a, T: Real> Members<'a, T> {
         Some(room - rest.len())
     }
 
-    /// Where cells are nowhere, or not held in one run, or have more bodies than a block.
+    /// Where some of the cells may be nowhere: at the ends of the grid.
+    #[inline(never)]
+    fn read_at_ends<const BLOCKS: usize>(
+        &self,
+        lines: [&[u32]; 3],
+        found: &mut [u32],
+    ) -> Option<usize> {
+        let mut kept = [[0; 3]; 3];
+        let mut lens = [0; 3];
+        let mut bounds = [0; 2];
+        for axis in 0..3 {
+            let mut ends = [NOWHERE, 0];
+            for &cell in lines[axis].iter().filter(|&&cell| cell != NOWHERE) {
+                kept[axis][lens[axis]] = cell;
+                lens[axis] += 1;
+                ends = [ends[0].min(cell), ends[1].max(cell)];
+            }
+            if lens[axis] == 0 {
+                return Some(0);
+            }
+            bounds = [bounds[0] + ends[0] as usize, bounds[1] + ends[1] as usize];
+        }
+        let [xs, ys, zs] = &kept;
+        let kept = [&xs[..lens[0]], &ys[..lens[1]], &zs[..lens[2]]];
+        let len = self.copy_run::<BLOCKS>(kept, bounds, found);
+        len.or_else(|| self.read_with_care(kept, found))
+    }
+
+    /// Where cells are nowhere, or not held in one run, or have more bodies than room.
     #[inline(never)]
     fn read_with_care(&self, [xs, ys, zs]: [&[u32]; 3], found: &mut [u32]) -> Option<usize> {
         let mut len = 0;
-        for &z in zs {
-            for &y in ys {
-                for &x in xs {
-                    if [x, y, z].contains(&NOWHERE) {
-                        continue;
-                    }
+        for &z in zs.iter().filter(|&&z| z != NOWHERE) {
+            for &y in ys.iter().filter(|&&y| y != NOWHERE) {
+                for &x in xs.iter().filter(|&&x| x != NOWHERE) {
                     if !self.holds(x + y + z) {
                         return None;
                     }
