@@ -59,7 +59,8 @@ enum Place {
 /// threads. Each has the bits that it has in a world of its own.
 ///
 /// Lanes take scenes of one shape: the same number of bodies, fixed parts, surface and
-/// integrator, in open space, by the stepped engine. They may differ in positions, velocities, spins, radii, masses, gravity, step and duration.
+/// integrator, in open space, by the stepped engine. They may differ in positions, velocities,
+/// spins, radii, masses, gravity, step and duration.
 /// All other scenes can be in a batch too, and run one by one on all threads; so do those of
 /// more than 128 bodies, since lanes test every pair. `carom explain` says which way a scene
 /// takes.
