@@ -51,7 +51,7 @@ pub fn main() -> ExitCode {
             None => run::run(&RunArguments::default()),
             Some(Command::Run(arguments)) => run::run(&arguments),
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
-            Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+            Some(Command::Scenes { name, schema }) => scenes::scenes(name.as_deref(), schema),
             Some(Command::Analyse(arguments)) => analyse::analyse(&arguments),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),

@@ -83,10 +83,18 @@ Examples:
 Examples:
   carom scenes                          list them
   carom scenes rough-gas > gas.toml     start a file of your own from one
-  carom run gas.toml                    and run it")]
+  carom run gas.toml                    and run it
+  carom scenes --schema > carom.schema.json   let an editor check and complete it
+
+With #:schema ./carom.schema.json as its first line, editors that know TOML by taplo (Even
+Better TOML, Helix, Neovim) check a scene file as it is written.")]
     Scenes {
         /// The built-in scene to print.
         name: Option<String>,
+
+        /// Print the JSON Schema of scene files, for editors.
+        #[arg(long, conflicts_with = "name")]
+        schema: bool,
     },
     /// Find in recorded frames how bodies are arranged, and how they move.
     ///
