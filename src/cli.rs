@@ -20,6 +20,7 @@ mod outlook;
 mod output_file;
 mod outputs;
 mod pace;
+mod picture;
 mod pictures;
 mod plain;
 mod plot;
@@ -29,6 +30,7 @@ mod run;
 mod scene_argument;
 mod scenes;
 mod series;
+mod shown;
 mod study;
 mod summary;
 mod sweep;
@@ -54,6 +56,7 @@ pub fn main() -> ExitCode {
             Some(Command::Scenes { name, schema }) => scenes::scenes(name.as_deref(), schema),
             Some(Command::Analyse(arguments)) => analyse::analyse(&arguments),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
+            Some(Command::Picture(arguments)) => picture::picture(&arguments),
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
             Some(Command::Batch(arguments)) => batch::batch(&arguments),
             Some(Command::Study { study }) => study.run(),

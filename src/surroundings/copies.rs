@@ -163,7 +163,7 @@ impl<T: Real> Solid<T> for Copies<T> {
         // Many of them are small in a picture.
         let around = [(16, detail.around), (256, 24), (4096, 12)];
         let around = around.iter().find(|(count, _)| self.number() <= *count);
-        let around = around.map_or(8, |(_, around)| *around).min(detail.around);
+        let around = around.map_or(12, |(_, around)| *around).min(detail.around);
         let detail = Detail { around, ..*detail };
         (0..self.number()).flat_map(|number| self.copy(number).skin(&detail)).collect()
     }

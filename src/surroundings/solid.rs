@@ -300,8 +300,15 @@ macro_rules! solids {
                 }
             }
 
-            /// As [`Solid::extent`].
-            pub(crate) fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+            /// The corners of the box around the solid, length; `None` without end.
+            ///
+            /// ```
+            /// use carom::surroundings::{FixedSphere, Shape};
+            /// let ball = Shape::from(FixedSphere::solid([1.0, 0.0, 0.0], 2.0));
+            /// assert_eq!(ball.bounds().map(|[lower, _]| lower.x), Some(-1.0));
+            /// ```
+            #[must_use]
+            pub fn bounds(&self) -> Option<[Vec3<T>; 2]> {
                 match self {
                     $(Self::$solid(solid) => solid.extent(),)*
                 }
