@@ -16,6 +16,7 @@ mod interrupt;
 mod journey;
 mod kept;
 mod measured;
+mod outline;
 mod outlook;
 mod output_file;
 mod outputs;
@@ -35,6 +36,7 @@ mod study;
 mod summary;
 mod sweep;
 mod variation;
+mod view;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -57,6 +59,7 @@ pub fn main() -> ExitCode {
             Some(Command::Analyse(arguments)) => analyse::analyse(&arguments),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
             Some(Command::Picture(arguments)) => picture::picture(&arguments),
+            Some(Command::View(arguments)) => view::view(&arguments),
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
             Some(Command::Batch(arguments)) => batch::batch(&arguments),
             Some(Command::Study { study }) => study.run(),

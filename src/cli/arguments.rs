@@ -35,6 +35,7 @@ Examples:
   carom analyse gas.npz                 what recorded frames amount to
   carom plot gas.csv                    draw a time series of a run
   carom picture gas.toml -o gas.svg     draw its spheres
+  carom view gas.toml                   play its motion in a browser: gas.html
   carom sweep gas.toml --vary spheres[0].radius=0.1:0.3:5   a run for each value
   carom batch gas.toml --count 10000 --output gas.csv   a run for each of many seeds
   carom study error gas.toml            what each method costs, and its error
@@ -146,6 +147,24 @@ Examples:
 
 Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
     Picture(PictureArguments),
+    /// Make one HTML file that plays the motion in a browser.
+    ///
+    /// It needs no network and nothing beside it: spheres, fixed parts and the script are in the
+    /// file. Spheres that turn have marks.
+    #[command(
+        mut_arg("scene", |scene| scene.help(format!(
+            "A scene file, the name of a built-in scene, or recorded frames: {} \
+             [default: {DEFAULT_SCENE}]", FrameReader::ENDINGS
+        ))),
+        after_help = "\
+Examples:
+  carom view superball                  runs it, and makes superball.html
+  carom view gas.toml --duration 5 --frames 600 -o gas.html
+  carom view gas.npz                    the frames that a run has recorded
+
+Mouse and touch turn, move and zoom; Space plays, arrows go from frame to frame.
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
+    View(ViewArguments),
     /// Run a scene once for each value of some of its keys, side by side on all cores.
     ///
     /// Each run is one row of a table; runs that differ in nothing but the seed give means
@@ -489,6 +508,29 @@ pub struct PictureArguments {
 
     #[command(flatten)]
     pub pictures: PictureLook,
+}
+
+/// What `carom view` takes.
+#[derive(Args, Debug)]
+pub struct ViewArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// The page [default: the subject's name with .html]
+    #[arg(short, long, value_name = "FILE.html")]
+    pub output: Option<PathBuf>,
+
+    /// How many frames of a scene there are beside its start [default: 300]; of recorded ones
+    /// the most that are kept
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub frames: Option<u64>,
+
+    /// How large its data may be, megabytes; every second frame is left out until they are not
+    /// larger
+    #[arg(long, value_name = "MB", default_value_t = 64, allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=1_000))]
+    pub limit: u64,
 }
 
 const COLORS: [(&str, ColorBy); 3] =

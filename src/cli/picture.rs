@@ -17,9 +17,7 @@ use carom::study::chart::{Format, Look, pdf_of, png_of};
 use super::arguments::PictureArguments;
 use super::failure::Failure;
 use super::output_file::{Destination, OutputError};
-use super::shown::{
-    Bounds, Looks, Moment, Scenery, Subject, around, frames, joined, run_scene, state,
-};
+use super::shown::{Bounds, Looks, Moment, Scenery, Subject, around, frames, run_scene, state};
 use camera::Camera;
 use drawing::{Drawing, HAZES, Item, Layer};
 use paint::{LEGEND, Paint};
@@ -62,6 +60,7 @@ pub fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
         Format::Png => {
             /// For fine screens.
             const FINE: f64 = 2.0;
+            let drawing = without_hidden(drawing);
             let (mut pixels, size) = raster::pixels(&drawing, FINE);
             text::write(&mut pixels, size, &drawing.words, FINE)
                 .and_then(|()| png_of(&pixels, size))
@@ -125,7 +124,7 @@ fn moment(subject: &Subject, arguments: &PictureArguments) -> Result<(Scenery, M
 /// The picture.
 fn drawn(scenery: &Scenery, moment: &Moment, arguments: &PictureArguments, look: &Look) -> Drawing {
     let bodies = &moment.bodies;
-    let within = whole(scenery, moment);
+    let within = scenery.whole(around(bodies));
     let up = arguments.up.map_or(scenery.up, Vec3::from);
     let from = arguments.from.map_or_else(|| usual(up), Vec3::from);
     let camera = Camera::new(within, from, up, arguments.perspective);
@@ -194,19 +193,6 @@ fn usual(up: Vec3<f64>) -> Vec3<f64> {
     let side = front_of.cross(up);
     let side = side * (1.0 / side.length());
     side * right + up.cross(side) * front + up * height
-}
-
-/// The box around everything, with room for what has no end.
-fn whole(scenery: &Scenery, moment: &Moment) -> Bounds {
-    let seen = [around(&moment.bodies), scenery.bounds()].into_iter().flatten().reduce(joined);
-    let bounds = seen.unwrap_or([Vec3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0)]);
-    let has_end = |shape: &carom::surroundings::Shape<f64>| {
-        shape.bounds().is_some() || shape.interior().is_some()
-    };
-    if scenery.shapes.iter().all(has_end) {
-        return bounds;
-    }
-    super::shown::with_planes(bounds, &scenery.shapes)
 }
 
 /// The corners of a box.

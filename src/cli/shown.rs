@@ -61,6 +61,20 @@ impl Subject {
             return Ok(Self::Scene(scene_file(arguments)?.into()));
         };
         let is_state = path.extension().is_some_and(|ending| ending == "csv");
+        let options = [
+            ("--precision", arguments.precision.is_some()),
+            ("--engine", arguments.engine.is_some()),
+            ("--dt", arguments.dt.is_some()),
+            ("--seed", arguments.seed.is_some()),
+            ("--set", !arguments.set.is_empty()),
+        ];
+        let is_moved = is_state || FrameFormat::of(path).is_some();
+        if let Some((option, _)) = options.iter().find(|(_, is_given)| is_moved && *is_given) {
+            let path = path.display();
+            return Err(Failure::Argument(format!(
+                "{option} is for a scene, and {path} has spheres as they were"
+            )));
+        }
         match FrameFormat::of(path) {
             Some(FrameFormat::ParaView) => Err(Failure::Argument(format!(
                 "{} is a series of ParaView, which is not read; frames are read that end in {}",
@@ -105,10 +119,18 @@ impl Scenery {
     }
 
     /// The box around what has an end.
-    pub fn bounds(&self) -> Option<Bounds> {
+    fn bounds(&self) -> Option<Bounds> {
         let shapes = self.shapes.iter().filter_map(|shape| shape.interior().or(shape.bounds()));
         let space = self.space.map(|space| [space.lower, space.upper]);
         shapes.chain(space).reduce(joined)
+    }
+
+    /// The box around everything, spheres in a box among it, with room for what has no end.
+    pub fn whole(&self, spheres: Option<Bounds>) -> Bounds {
+        let seen = [spheres, self.bounds()].into_iter().flatten().reduce(joined);
+        let bounds = seen.unwrap_or([Vec3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0)]);
+        let has_end = |shape: &Shape<f64>| shape.bounds().or(shape.interior()).is_some();
+        if self.shapes.iter().all(has_end) { bounds } else { with_planes(bounds, &self.shapes) }
     }
 }
 
@@ -132,7 +154,7 @@ pub fn around(bodies: &Bodies<f64>) -> Option<Bounds> {
 
 /// A box that reaches to the planes around it, if they are near, with room around: what has
 /// no end fills it.
-pub fn with_planes([lower, upper]: Bounds, shapes: &[Shape<f64>]) -> Bounds {
+fn with_planes([lower, upper]: Bounds, shapes: &[Shape<f64>]) -> Bounds {
     /// How far away a plane may be, in diagonals of the box.
     const FAR: f64 = 3.0;
     let middle = (lower + upper) * 0.5;
@@ -144,9 +166,11 @@ pub fn with_planes([lower, upper]: Bounds, shapes: &[Shape<f64>]) -> Bounds {
     let feet = planes.map(|plane| middle - plane.normal * (middle - plane.point).dot(plane.normal));
     let feet = feet.filter(|foot| (*foot - middle).length() < FAR * reach);
     let bounds = feet.fold([lower, upper], |bounds, foot| joined(bounds, [foot, foot]));
-    let room = (bounds[1] - bounds[0]).length() * 0.06;
-    let room = Vec3::new(room, room, room);
-    [bounds[0] - room, bounds[1] + room]
+    let sides = (bounds[1] - bounds[0]).to_array();
+    let longest = sides.into_iter().fold(0.0, f64::max);
+    // At least half as long along one axis as along another, for planes to be seen.
+    let room = sides.map(|side| 0.05 * longest + 0.5 * (0.5 * longest - side).max(0.0));
+    [bounds[0] - Vec3::from(room), bounds[1] + Vec3::from(room)]
 }
 
 /// What moments of a run are looked at.

@@ -4,8 +4,6 @@
 //! left open, but for its edges. What stands among them is cut into pieces, which are drawn
 //! with the spheres in order of their distance.
 
-use std::collections::HashMap;
-
 use carom::Vec3;
 use carom::space::PeriodicBox;
 use carom::study::chart::Look;
@@ -13,18 +11,8 @@ use carom::surroundings::{Cuboid, Shape};
 
 use super::camera::{Camera, Place};
 use super::drawing::{Item, Layer, lit, mixed};
+use crate::cli::outline::{self, AROUND, MOST_WITH_EDGES, Triangle, edges, is_wall};
 use crate::cli::shown::{Bounds, Scenery};
-
-type Triangle = [Vec3<f64>; 3];
-
-/// Corners of a circle.
-const AROUND: usize = 72;
-
-/// The most triangles of a part that are drawn with their edges.
-const MOST_WITH_EDGES: usize = 40_000;
-
-/// The cosine of the angle by which two faces differ at an edge that is seen.
-const CREASE: f64 = 0.84;
 
 /// The most pieces that a part is cut into.
 const MOST_PIECES: f64 = 6_000.0;
@@ -55,9 +43,6 @@ pub fn triangles(scenery: &Scenery, within: Bounds) -> Vec<(&Shape<f64>, Vec<Tri
     scenery.shapes.iter().map(|shape| (shape, shape.triangles(within, AROUND))).collect()
 }
 
-/// An edge between triangles, by its ends, bit by bit.
-type Edge = [[u64; 3]; 2];
-
 /// Something drawn, in its layer and by how near it is.
 pub type Placed = (Layer, f64, Item);
 
@@ -65,21 +50,30 @@ impl Parts<'_> {
     /// Draws a part.
     pub fn draw(&self, shape: &Shape<f64>, triangles: &[Triangle], items: &mut Vec<Placed>) {
         let sides: Vec<Side> = triangles.iter().map(|it| self.side(it, shape)).collect();
-        let area: f64 = triangles.iter().map(|triangle| cross(triangle).length() * 0.5).sum();
+        // What stands among the spheres stands out.
+        let is_wall = shape.is_thin() || is_wall(shape);
+        let is_wall =
+            is_wall || sides.iter().any(|side| side.layer == Some(Layer::Back) || side.is_open);
+        let tones = match () {
+            () if shape.is_sensor() => Tones::Sensor,
+            () if is_wall => Tones::Wall,
+            () => Tones::Solid,
+        };
+        let area: f64 = triangles.iter().map(outline::area).sum();
         let piece = self.piece.max((area / MOST_PIECES).sqrt());
         for (triangle, side) in triangles.iter().zip(&sides) {
             match side.layer {
                 Some(Layer::Between) => {
                     self.pieces(*triangle, piece, &mut |piece| {
-                        self.area(&piece, side, Layer::Between, items);
+                        self.area(&piece, side, (Layer::Between, tones), items);
                     });
                 }
-                Some(layer) => self.area(triangle, side, layer, items),
+                Some(layer) => self.area(triangle, side, (layer, tones), items),
                 None => {}
             }
         }
         if triangles.len() <= MOST_WITH_EDGES {
-            self.edges(shape, triangles, &sides, piece, items);
+            self.draw_edges(shape, (triangles, &sides), piece, items);
         }
     }
 
@@ -89,14 +83,12 @@ impl Parts<'_> {
         let shape = Shape::from(Cuboid::container(lower, upper));
         let triangles = shape.triangles(self.within, AROUND);
         let sides: Vec<Side> = triangles.iter().map(|it| self.side(it, &shape)).collect();
-        self.edges(&shape, &triangles, &sides, f64::INFINITY, items);
+        self.draw_edges(&shape, (&triangles, &sides), f64::INFINITY, items);
     }
 
     /// How a triangle is seen.
     fn side(&self, triangle: &Triangle, shape: &Shape<f64>) -> Side {
-        let normal = cross(triangle);
-        let length = normal.length();
-        let normal = if length > 0.0 { normal * (1.0 / length) } else { normal };
+        let normal = outline::normal(triangle);
         let is_front = normal.dot(self.camera.sight(triangle[0])) > 0.0;
         let above = self.centers.iter().filter(|center| (**center - triangle[0]).dot(normal) > 0.0);
         let above = above.count();
@@ -119,15 +111,23 @@ impl Parts<'_> {
         Side { normal: if is_front { normal } else { -normal }, is_front, layer, opacity, is_open }
     }
 
-    fn area(&self, triangle: &Triangle, side: &Side, layer: Layer, items: &mut Vec<Placed>) {
+    fn area(
+        &self,
+        triangle: &Triangle,
+        side: &Side,
+        (layer, tones): (Layer, Tones),
+        items: &mut Vec<Placed>,
+    ) {
         let corners = triangle.map(|corner| self.camera.place(corner));
         let light = side.normal.dot(self.light()).max(0.0);
-        // Walls are light, what stands among the spheres stands out.
-        let [from, to] = if layer == Layer::Back { [0.2, 0.07] } else { [0.56, 0.24] };
-        let color = match side.opacity {
-            1.0 => self.look.ink(from + (to - from) * light),
-            _ => lit(self.look.color(Some(0)), 0.8 + 0.5 * light),
+        let ink = |dark: f64, bright: f64| self.look.ink(dark + (bright - dark) * light);
+        let color = match tones {
+            Tones::Sensor => self.look.color(Some(0)),
+            Tones::Wall => ink(0.22, 0.07),
+            Tones::Solid => ink(0.56, 0.22),
         };
+        // Through what is seen through, its colour has to be seen.
+        let color = if side.opacity < 1.0 { lit(color, 0.6) } else { color };
         let near = middle(&corners);
         let item = Item::Area { corners: corners.to_vec(), color, opacity: side.opacity };
         items.push((layer, near, item));
@@ -155,36 +155,19 @@ impl Parts<'_> {
     }
 
     /// Draws the edges that are seen: where a surface ends, has an edge, or turns away.
-    fn edges(
+    fn draw_edges(
         &self,
         shape: &Shape<f64>,
-        triangles: &[Triangle],
-        sides: &[Side],
+        (triangles, sides): (&[Triangle], &[Side]),
         piece: f64,
         items: &mut Vec<Placed>,
     ) {
-        let mut around: HashMap<Edge, ([Vec3<f64>; 2], Vec<usize>)> = HashMap::new();
-        for (index, [a, b, c]) in triangles.iter().enumerate() {
-            for ends in [[*a, *b], [*b, *c], [*c, *a]] {
-                let mut key = ends.map(|end| (end + Vec3::ZERO).to_array().map(f64::to_bits));
-                key.sort_unstable();
-                if key[0] != key[1] {
-                    around.entry(key).or_insert((ends, Vec::new())).1.push(index);
-                }
-            }
-        }
-        let mut edges: Vec<_> = around.into_iter().collect();
-        edges.sort_unstable_by_key(|(key, _)| *key);
+        let normals: Vec<Vec3<f64>> = triangles.iter().map(outline::normal).collect();
         let is_two_sided = shape.is_thin() || shape.is_sensor();
-        for (_, (ends, own)) in edges {
-            let own: Vec<&Side> = own.into_iter().map(|index| &sides[index]).collect();
-            let is_seen = match own[..] {
-                [a, b] => {
-                    let signed = |side: &Side| side.normal * if side.is_front { 1.0 } else { -1.0 };
-                    a.is_front != b.is_front || signed(a).dot(signed(b)) < CREASE
-                }
-                _ => true,
-            };
+        for edge in edges(triangles) {
+            let own: Vec<&Side> = edge.of.iter().map(|index| &sides[*index]).collect();
+            let turns_away = own.iter().any(|side| side.is_front != own[0].is_front);
+            let (is_seen, ends) = (turns_away || edge.is_sharp(&normals), edge.ends);
             if !is_seen {
                 continue;
             }
@@ -218,6 +201,14 @@ impl Parts<'_> {
     }
 }
 
+/// The colours of a part.
+#[derive(Clone, Copy, Debug)]
+enum Tones {
+    Sensor,
+    Wall,
+    Solid,
+}
+
 /// How a triangle is seen.
 struct Side {
     /// Unit vector towards the viewer.
@@ -229,10 +220,6 @@ struct Side {
     opacity: f64,
     /// Whether it is a wall that is seen from behind.
     is_open: bool,
-}
-
-fn cross([a, b, c]: &Triangle) -> Vec3<f64> {
-    (*b - *a).cross(*c - *a)
 }
 
 /// How near the middle of some places is.

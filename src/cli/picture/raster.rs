@@ -1,5 +1,7 @@
 //! Raster: a drawing in pixels, and what of it is hidden.
 
+use std::collections::HashMap;
+
 use carom::study::chart::Color;
 use rayon::prelude::*;
 
@@ -16,6 +18,15 @@ const SAMPLES: usize = 2;
 pub fn pixels(drawing: &Drawing, fine: f64) -> (Vec<u8>, (u32, u32)) {
     let size = [drawing.width, drawing.height].map(|side| (side * fine).ceil() as usize);
     let mut pixels = vec![0; 3 * size[0] * size[1]];
+    let items: Vec<(&Item, [f64; 4])> =
+        drawing.items.iter().chain(&drawing.legend).map(|item| (item, item.bounds())).collect();
+    let mut colors = Colors::new();
+    for (item, _) in &items {
+        if let Item::Sphere { color, haze, .. } = item {
+            let shades = || Shades::new(shades(*color, *haze, drawing.ground));
+            colors.entry((*color, *haze)).or_insert_with(shades);
+        }
+    }
     let bands = pixels.par_chunks_mut(3 * size[0] * BAND).enumerate();
     bands.for_each(|(number, band)| {
         let rows = band.len() / (3 * size[0]);
@@ -24,18 +35,20 @@ pub fn pixels(drawing: &Drawing, fine: f64) -> (Vec<u8>, (u32, u32)) {
             fine * SAMPLES as f64,
             [size[0] * SAMPLES, number * BAND * SAMPLES, rows * SAMPLES],
         );
-        for item in drawing.items.iter().chain(&drawing.legend) {
-            samples.draw(item);
+        for (item, bounds) in &items {
+            samples.draw(item, *bounds, &colors);
         }
         samples.averaged(band);
     });
     (pixels, (size[0] as u32, size[1] as u32))
 }
 
+/// The colours of spheres, by their own colour and haze.
+type Colors = HashMap<(Color, u8), Shades>;
+
 /// Some rows of samples.
 struct Samples {
     colors: Vec<Color>,
-    ground: Color,
     fine: f64,
     width: usize,
     first: usize,
@@ -51,14 +64,17 @@ fn rows_of(bounds: [f64; 4], fine: f64, first: usize, rows: usize) -> core::ops:
 
 impl Samples {
     fn new(ground: Color, fine: f64, [width, first, rows]: [usize; 3]) -> Self {
-        Self { colors: vec![ground; width * rows], ground, fine, width, first, rows }
+        Self { colors: vec![ground; width * rows], fine, width, first, rows }
     }
 
-    fn draw(&mut self, item: &Item) {
-        let rows = rows_of(item.bounds(), self.fine, self.first, self.rows);
+    fn draw(&mut self, item: &Item, bounds: [f64; 4], colors: &Colors) {
+        let rows = rows_of(bounds, self.fine, self.first, self.rows);
+        if rows.is_empty() {
+            return;
+        }
         match item {
             Item::Sphere { disc, color, haze } => {
-                let shades = Shades::new(shades(*color, *haze, self.ground));
+                let Some(shades) = colors.get(&(*color, *haze)) else { return };
                 for row in rows {
                     let y = (row as f64 + 0.5) / self.fine;
                     let Some(ends) = disc_ends(disc, y) else { continue };
