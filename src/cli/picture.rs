@@ -32,7 +32,7 @@ const FROM: [f64; 3] = [0.42, -0.84, 0.34];
 const MARGIN: f64 = 16.0;
 
 /// The most things that are drawn as text of their own.
-const MOST_IN_TEXT: usize = 100_000;
+const MOST_IN_TEXT: usize = 200_000;
 
 /// Draws a scene, a state or a frame.
 pub fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
@@ -149,6 +149,10 @@ fn drawn(scenery: &Scenery, moment: &Moment, arguments: &PictureArguments, look:
         let place = camera.place(point);
         reach(place.x, place.y, [0.0; 2]);
     }
+    if corners[0][0] > corners[1][0] {
+        // There is nothing to be seen.
+        corners = [[-1.0; 2], [1.0; 2]];
+    }
     let width = f64::from(look.width);
     let (camera, height) = camera.fitted(corners, width, MARGIN);
 
@@ -175,6 +179,7 @@ fn drawn(scenery: &Scenery, moment: &Moment, arguments: &PictureArguments, look:
         let near = disc.center.near;
         items.push((Layer::Between, near, Item::Sphere { disc, color: paint.color(k), haze }));
     }
+    items.retain(|(_, _, item)| !item.is_tiny());
     items.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let items = items.into_iter().map(|(_, _, item)| item).collect();
     let (legend, words) =

@@ -8,7 +8,7 @@ use carom::bodies::Bodies;
 use carom::engine::{Compiled, Execution, World};
 use carom::observe::fall_energy;
 use carom::output::{FrameFormat, FrameReader};
-use carom::scene::{Precision, Scene, SceneFile};
+use carom::scene::{EngineKind, Precision, Scene, SceneFile};
 use carom::space::PeriodicBox;
 use carom::study::{Course, Schedule};
 use carom::surroundings::Shape;
@@ -163,7 +163,10 @@ fn with_planes([lower, upper]: Bounds, shapes: &[Shape<f64>]) -> Bounds {
         Shape::Plane(plane) => Some(*plane),
         _ => None,
     });
-    let feet = planes.map(|plane| middle - plane.normal * (middle - plane.point).dot(plane.normal));
+    // The nearest point of each, and the one that is given: there planes may meet.
+    let feet = planes.flat_map(|plane| {
+        [middle - plane.normal * (middle - plane.point).dot(plane.normal), plane.point]
+    });
     let feet = feet.filter(|foot| (*foot - middle).length() < FAR * reach);
     let bounds = feet.fold([lower, upper], |bounds, foot| joined(bounds, [foot, foot]));
     let sides = (bounds[1] - bounds[0]).to_array();
@@ -245,7 +248,7 @@ fn run_in<T: Compiled>(
             }
         }
         let bodies = world.bodies().cast();
-        check(&bodies, world.time())?;
+        check(&bodies, world.time(), world.plan().engine)?;
         see(&scenery, Moment { time: Some(world.time()), bodies });
         schedule.pass(mark);
     }
@@ -253,15 +256,13 @@ fn run_in<T: Compiled>(
 }
 
 /// Refuses places that are no longer finite.
-fn check(bodies: &Bodies<f64>, time: f64) -> Result<(), Failure> {
-    let lost = (0..bodies.len()).find(|&k| {
-        !(bodies.position_of(k).length_squared() + bodies.velocity_of(k).length_squared())
-            .is_finite()
-    });
+fn check(bodies: &Bodies<f64>, time: f64, engine: EngineKind) -> Result<(), Failure> {
+    let size =
+        |k: usize| bodies.position_of(k).length_squared() + bodies.velocity_of(k).length_squared();
+    let lost = (0..bodies.len()).find(|&k| !size(k).is_finite());
     lost.map_or(Ok(()), |k| {
-        Err(Failure::Argument(format!(
-            "at time {time:?} sphere {k} is no longer at a finite place"
-        )))
+        let what = format!("sphere {k} is no longer at a finite place");
+        Err(Failure::NotFinite { time, what, engine })
     })
 }
 

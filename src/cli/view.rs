@@ -10,8 +10,8 @@ use carom::output::write_whole;
 use super::arguments::ViewArguments;
 use super::failure::Failure;
 use super::output_file::{Destination, OutputError};
-use super::print;
 use super::shown::{Looks, Moment, Scenery, Subject, frames, run_scene};
+use super::{print, standard_output};
 use film::{Film, TooLarge};
 
 /// Frames of a scene, beside its start.
@@ -32,6 +32,7 @@ pub fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     let Destination::Regular(target) = Destination::of(&output).map_err(refused)? else {
         return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
     };
+    standard_output()?;
     let most = arguments.limit * 1_000_000;
     let mut film = Film::new(most);
     let scenery = filmed(&subject, arguments, &mut film)?;
@@ -60,6 +61,7 @@ fn filmed(
     match subject {
         Subject::Scene(file) => {
             let duration = file.run_duration()?;
+            film.comes_and_goes(file.has_flow());
             let looks = Looks::Frames(arguments.frames.unwrap_or(USUAL), duration);
             let execution = arguments.scene.execution();
             run_scene(file, execution, looks, &mut |scenery, moment| film.add(scenery, moment))

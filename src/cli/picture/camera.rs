@@ -89,7 +89,7 @@ impl Camera {
     /// Where a point is seen.
     pub fn place(&self, point: Vec3<f64>) -> Place {
         let [x, y, z] = self.seen(point);
-        let larger = self.scale * self.distance.map_or(1.0, |away| away / (away - z));
+        let larger = self.scale * self.distance.map_or(1.0, |away| away / depth(away, z));
         Place {
             x: self.shift[0] + larger * x,
             y: self.shift[1] - larger * y,
@@ -105,7 +105,7 @@ impl Camera {
             return Disc { center: place, half: [half; 2], along: [1.0, 0.0] };
         };
         let [x, y, z] = self.seen(center);
-        let (depth, off) = (away - z, x.hypot(y));
+        let (depth, off) = (depth(away, z), x.hypot(y));
         let [angle, half] = [(off / depth).atan(), (radius / off.hypot(depth)).min(0.999).asin()];
         let ends = [(angle - half).tan(), (angle + half).tan()].map(|t| t * away * self.scale);
         let along = if off > 0.0 { [x / off, -y / off] } else { [1.0, 0.0] };
@@ -134,10 +134,16 @@ impl Camera {
     /// hidden by the other. In perspective that is by the tangent from the eye.
     fn near(&self, [x, y, z]: [f64; 3], radius: f64) -> f64 {
         self.distance.map_or(z, |away| {
-            let depth = away - z;
+            let depth = depth(away, z);
             away - (x * x + y * y + depth * depth - radius * radius).max(0.0).sqrt()
         })
     }
+}
+
+/// How far from the viewer something is, along the line of sight: never beside the eye, as
+/// what goes on without end may be.
+fn depth(away: f64, z: f64) -> f64 {
+    (away - z).max(1e-3 * away)
 }
 
 fn unit(vector: Vec3<f64>) -> Vec3<f64> {

@@ -102,6 +102,18 @@ impl Item {
         }
     }
 
+    /// Whether it is too small to be seen, where many of its kind make something up.
+    pub fn is_tiny(&self) -> bool {
+        /// Pixels.
+        const TINY: f64 = 0.3;
+        let [left, top, right, bottom] = self.bounds();
+        match self {
+            Self::Sphere { .. } => false,
+            Self::Area { .. } => (right - left).max(bottom - top) < TINY,
+            Self::Line { width, .. } => (right - left).max(bottom - top) - width < TINY,
+        }
+    }
+
     /// Whether it hides what is behind it.
     pub fn hides(&self) -> bool {
         match self {

@@ -115,14 +115,15 @@ impl Paint {
                 let shown = named.len().min(MOST_NAMED);
                 let is_cut = named.len() > shown;
                 let room = (width - 32.0) / shown as f64;
+                let longest = named.iter().take(shown).map(|(_, name)| name.len()).max();
+                // About the width of the letters.
+                let fits = 0.6 * LETTERS * longest.unwrap_or(0) as f64 <= room - 20.0;
                 for (k, (color, name)) in named.iter().take(shown).enumerate() {
                     let (x, y) = (24.0 + room * k as f64, top + 0.5 * LEGEND);
                     let center = Place { x, y, near: 0.0 };
                     let disc = Disc { center, half: [7.0; 2], along: [1.0, 0.0] };
                     items.push(Item::Sphere { disc, color: *color, haze: 0 });
-                    // About the width of the letters.
-                    let fits = 0.6 * LETTERS * name.len() as f64 <= room - 20.0;
-                    let name = if fits { name.clone() } else { (k + 1).to_string() };
+                    let name = if fits { name.clone() } else { format!("species {}", k + 1) };
                     let more = if is_cut && k + 1 == shown { " …" } else { "" };
                     say(format!("{name}{more}"), x + 14.0, Anchor::Start);
                 }

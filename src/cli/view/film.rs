@@ -83,6 +83,11 @@ impl Film {
         self.most_frames = frames.map_or(u64::MAX, |frames| frames.saturating_add(1));
     }
 
+    /// Says whether spheres may come and go, and others take their places.
+    pub fn comes_and_goes(&mut self, comes_and_goes: bool) {
+        self.varies = comes_and_goes;
+    }
+
     /// Adds the next frame, if it is one of those that are kept.
     pub fn add(&mut self, scenery: &Scenery, moment: Moment) {
         let number = self.passed;

@@ -126,7 +126,7 @@ void main() {
   vec3 light = normalize(vec3(-0.42, 0.62, 0.66));
   float lit = max(dot(normal, light), 0.0);
   float shine = pow(max(dot(reflect(sight, normal), light), 0.0), 40.0);
-  pixel = vec4(own * (0.36 + 0.7 * lit) + 0.22 * shine, cover);
+  pixel = vec4(own * (0.48 + 0.62 * lit) + 0.22 * shine, cover);
   vec4 seen = projection * vec4(point, 1.0);
   gl_FragDepth = clamp(0.5 * seen.z / seen.w + 0.5, 0.0, 1.0);
 }`;
@@ -359,7 +359,7 @@ function say() {
   const time = times
     ? `time ${short(times[frame] + part * ((times[frame + 1] ?? times[frame]) - times[frame]))} of ${short(times[frames - 1])}`
     : `frame ${Math.round(at) + 1} of ${frames}`;
-  const lines = [document.createElement("b"), `${header.counts[frame].toLocaleString("en")} spheres`, time];
+  const lines = [document.createElement("b"), `${header.counts[frame].toLocaleString("en")} ${header.counts[frame] === 1 ? "sphere" : "spheres"}`, time];
   lines[0].textContent = header.name;
   element("words").replaceChildren(...lines.flatMap((line) => [line, document.createElement("br")]));
   element("place").value = at;
