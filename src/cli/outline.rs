@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 
 use carom::Vec3;
-use carom::surroundings::Shape;
+use carom::surroundings::{Plane, Shape};
+
+use super::shown::Bounds;
 
 /// Three corners.
 pub type Triangle = [Vec3<f64>; 3];
@@ -68,6 +70,48 @@ pub fn area([a, b, c]: &Triangle) -> f64 {
     (*b - *a).cross(*c - *a).length() * 0.5
 }
 
+/// The triangles of all parts; what has no end fills a box. Of a plane nothing is left that is
+/// behind another one.
+pub fn surfaces(shapes: &[Shape<f64>], within: Bounds) -> Vec<(&Shape<f64>, Vec<Triangle>)> {
+    let planes = || {
+        shapes.iter().filter_map(|shape| match shape {
+            Shape::Plane(plane) => Some(plane),
+            _ => None,
+        })
+    };
+    let surface = |shape: &Shape<f64>| {
+        let triangles = shape.triangles(within, AROUND);
+        let Shape::Plane(own) = shape else { return triangles };
+        let first = triangles.first().into_iter().flatten().copied();
+        let others = triangles.iter().skip(1).map(|corners| corners[2]);
+        let polygon: Vec<Vec3<f64>> = first.chain(others).collect();
+        let polygon = planes().filter(|plane| *plane != own).fold(polygon, in_front);
+        polygon
+            .get(1..)
+            .unwrap_or_default()
+            .windows(2)
+            .map(|ends| [polygon[0], ends[0], ends[1]])
+            .collect()
+    };
+    shapes.iter().map(|shape| (shape, surface(shape))).collect()
+}
+
+/// The part of a polygon that is in front of a plane.
+fn in_front(polygon: Vec<Vec3<f64>>, plane: &Plane<f64>) -> Vec<Vec3<f64>> {
+    let height = |point: Vec3<f64>| (point - plane.point).dot(plane.normal);
+    let mut kept = Vec::new();
+    for (&a, &b) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+        let [from, to] = [height(a), height(b)];
+        if from >= 0.0 {
+            kept.push(a);
+        }
+        if (from < 0.0) != (to < 0.0) {
+            kept.push(a + (b - a) * (from / (from - to)));
+        }
+    }
+    kept
+}
+
 /// Whether a part is a wall about spheres, or among them.
 pub fn is_wall(shape: &Shape<f64>) -> bool {
     matches!(shape, Shape::Plane(_)) || shape.interior().is_some()
@@ -78,6 +122,18 @@ mod tests {
     use carom::surroundings::Cuboid;
 
     use super::*;
+
+    #[test]
+    fn planes_end_where_they_meet() {
+        let [up, over] = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+        let shapes = [up, over].map(|normal| Shape::from(Plane::new([0.0; 3], normal)));
+        let within = [Vec3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 1.0)];
+        for (_, triangles) in surfaces(&shapes, within) {
+            assert_eq!(triangles.iter().map(area).sum::<f64>(), 2.0);
+        }
+        let far = [Vec3::new(1.0, 1.0, 1.0), Vec3::new(2.0, 2.0, 2.0)];
+        assert!(surfaces(&shapes, far).iter().all(|(_, triangles)| triangles.is_empty()));
+    }
 
     #[test]
     fn a_box_has_twelve_edges() {

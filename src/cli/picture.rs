@@ -16,6 +16,7 @@ use carom::study::chart::{Format, Look, pdf_of, png_of};
 
 use super::arguments::PictureArguments;
 use super::failure::Failure;
+use super::outline::surfaces;
 use super::output_file::{Destination, OutputError};
 use super::shown::{Bounds, Looks, Moment, Scenery, Subject, around, frames, run_scene, state};
 use camera::Camera;
@@ -128,7 +129,7 @@ fn drawn(scenery: &Scenery, moment: &Moment, arguments: &PictureArguments, look:
     let up = arguments.up.map_or(scenery.up, Vec3::from);
     let from = arguments.from.map_or_else(|| usual(up), Vec3::from);
     let camera = Camera::new(within, from, up, arguments.perspective);
-    let triangles = parts::triangles(scenery, within);
+    let triangles = surfaces(&scenery.shapes, within);
     let paint = Paint::new(bodies, arguments.color, look);
     let has_legend = paint.has_legend() && !arguments.no_legend;
 

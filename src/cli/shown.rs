@@ -1,6 +1,5 @@
 //! Shown: what a picture or a view is of, and how its moments come about.
 
-use core::time::Duration;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -16,13 +15,11 @@ use carom::{DoubleDouble, Vec3};
 
 use super::arguments::SceneArguments;
 use super::failure::Failure;
+use super::journey::Stretch;
 use super::outlook;
 use super::progress::{Progress, SettingUp};
 use super::run::{explained, totals_at_start};
 use super::scene_argument::scene_file;
-
-/// How long the engine runs between two looks at the clock.
-const STRETCH: Duration = Duration::from_millis(50);
 
 /// The corners of a box, length.
 pub type Bounds = [Vec3<f64>; 2];
@@ -228,20 +225,15 @@ fn run_in<T: Compiled>(
     if let Looks::At(_) = looks {
         schedule.pass(0.0);
     }
-    let mut stretch: u64 = 1;
+    let mut stretch = Stretch::new();
     let begin = Instant::now();
     while let Some(mark) = schedule.mark() {
         loop {
             let start = Instant::now();
             let is_there = course
-                .advance(&mut world, mark, stretch, None)
+                .advance(&mut world, mark, stretch.0, None)
                 .map_err(|error| explained(error.into(), &world, &shapes))?;
-            let taken = start.elapsed();
-            if taken < STRETCH / 2 {
-                stretch = stretch.saturating_mul(2);
-            } else if taken > STRETCH * 2 {
-                stretch = (stretch / 2).max(1);
-            }
+            stretch.adapt(start.elapsed());
             progress.show(&world, begin.elapsed());
             if is_there {
                 break;

@@ -102,8 +102,9 @@ impl<T: Real> Detail<T> {
             let angle = (share + T::whole(quarters[0])) * pi::<T>() * T::ratio(1, 2);
             let (sine, cosine) = sin_cos(angle);
             let distance = center[0] + radius * cosine;
-            // The ends of half a circle are on the axis.
-            let is_pole = center[0] == T::ZERO && (k == 0 || k == count);
+            // A quarter of a turn up or down from an axis leads along it.
+            let is_pole = center[0] == T::ZERO
+                && (k == 0 && quarters[0] % 2 != 0 || k == count && quarters[1] % 2 != 0);
             [if is_pole { T::ZERO } else { distance }, center[1] + radius * sine]
         };
         (0..=count).map(place).collect()

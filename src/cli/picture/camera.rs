@@ -180,7 +180,7 @@ mod tests {
         let mut farthest = 0.0_f64;
         for k in 0..4000 {
             let height = 1.0 - f64::from(k) / 2000.0;
-            let (sine, cosine) = (2.399_963 * f64::from(k)).sin_cos();
+            let (sine, cosine) = carom::trigonometry::sin_cos(2.399_963 * f64::from(k));
             let out = (1.0 - height * height).sqrt();
             let place = camera.place(center + Vec3::new(out * cosine, out * sine, height) * radius);
             let [x, y] = [place.x - disc.center.x, place.y - disc.center.y];

@@ -12,7 +12,7 @@ use carom::surroundings::{Cuboid, Shape};
 use super::camera::{Camera, Place};
 use super::drawing::{Item, Layer, lit, mixed};
 use crate::cli::outline::{self, AROUND, MOST_WITH_EDGES, Triangle, edges, is_wall};
-use crate::cli::shown::{Bounds, Scenery};
+use crate::cli::shown::Bounds;
 
 /// The most pieces that a part is cut into.
 const MOST_PIECES: f64 = 6_000.0;
@@ -36,11 +36,6 @@ pub struct Parts<'a> {
 pub fn some_of(centers: impl ExactSizeIterator<Item = Vec3<f64>>) -> Vec<Vec3<f64>> {
     let every = centers.len().div_ceil(MOST_CENTERS).max(1);
     centers.step_by(every).collect()
-}
-
-/// The triangles of all parts.
-pub fn triangles(scenery: &Scenery, within: Bounds) -> Vec<(&Shape<f64>, Vec<Triangle>)> {
-    scenery.shapes.iter().map(|shape| (shape, shape.triangles(within, AROUND))).collect()
 }
 
 /// Something drawn, in its layer and by how near it is.

@@ -6,7 +6,7 @@ use carom::Vec3;
 use serde_json::json;
 
 use super::film::{Film, Frame};
-use crate::cli::outline::{self, AROUND, MOST_WITH_EDGES, Triangle, edges, is_wall};
+use crate::cli::outline::{self, MOST_WITH_EDGES, Triangle, edges, is_wall, surfaces};
 use crate::cli::shown::Scenery;
 
 const HTML: &str = include_str!("view.html");
@@ -112,8 +112,7 @@ struct Fixed {
 impl Fixed {
     fn of(scenery: &Scenery, bounds: [Vec3<f64>; 2]) -> Self {
         let mut fixed = Self { faces: [const { Vec::new() }; 4], edges: Vec::new() };
-        for shape in &scenery.shapes {
-            let triangles = shape.triangles(bounds, AROUND);
+        for (shape, triangles) in surfaces(&scenery.shapes, bounds) {
             if triangles.len() <= MOST_WITH_EDGES {
                 let normals: Vec<Vec3<f64>> = triangles.iter().map(outline::normal).collect();
                 let sharp = edges(&triangles).into_iter().filter(|edge| edge.is_sharp(&normals));

@@ -34,7 +34,7 @@ fn tidy(schema: &mut Value) {
     match schema {
         Value::Object(keys) => {
             // A key that is left out is null in Rust, and cannot be so in a file.
-            keys.retain(|key, value| key != "default" && !(key == "format" && !value.is_object()));
+            keys.retain(|key, value| key != "default" && (key != "format" || value.is_object()));
             if let Some(Value::Array(types)) = keys.get_mut("type") {
                 types.retain(|name| name != "null");
                 if let [only] = &types[..] {
