@@ -16,10 +16,12 @@ mod interrupt;
 mod journey;
 mod kept;
 mod measured;
+mod outline;
 mod outlook;
 mod output_file;
 mod outputs;
 mod pace;
+mod picture;
 mod pictures;
 mod plain;
 mod plot;
@@ -29,10 +31,12 @@ mod run;
 mod scene_argument;
 mod scenes;
 mod series;
+mod shown;
 mod study;
 mod summary;
 mod sweep;
 mod variation;
+mod view;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -51,9 +55,11 @@ pub fn main() -> ExitCode {
             None => run::run(&RunArguments::default()),
             Some(Command::Run(arguments)) => run::run(&arguments),
             Some(Command::Explain(arguments)) => explain::explain(&arguments),
-            Some(Command::Scenes { name }) => scenes::scenes(name.as_deref()),
+            Some(Command::Scenes { name, schema }) => scenes::scenes(name.as_deref(), schema),
             Some(Command::Analyse(arguments)) => analyse::analyse(&arguments),
             Some(Command::Plot(arguments)) => plot::plot(&arguments),
+            Some(Command::Picture(arguments)) => picture::picture(&arguments),
+            Some(Command::View(arguments)) => view::view(&arguments),
             Some(Command::Sweep(arguments)) => sweep::sweep(&arguments),
             Some(Command::Batch(arguments)) => batch::batch(&arguments),
             Some(Command::Study { study }) => study.run(),

@@ -89,7 +89,7 @@
 //! `study`: the [studies](study) and the [double-double](DoubleDouble). The
 //! feature `files`, which they need, has scene files, events and states as files,
 //! and the state hash. A program of yours that only moves spheres takes
-//! `default-features = false`: 20 crates instead of 119. The crate has no unsafe code
+//! `default-features = false`: 20 crates instead of 138. The crate has no unsafe code
 //! (`unsafe_code = "forbid"`). User input gives errors, not panics.
 //!
 //! The instructions are chosen when the crate is compiled. Without flags that

@@ -30,7 +30,7 @@ pub use events::EventArrays;
 pub use events::{EVENT_COLUMNS, EventFilter, EventWriter};
 pub use findings::write_findings;
 #[cfg(feature = "study")]
-pub use frames::{Frame, FrameFormat, FrameWriter};
+pub use frames::{Frame, FrameFormat, FrameWriter, quaternion_of};
 #[cfg(feature = "study")]
 pub use recorded::{FrameError, FramePlace, FrameReader, RecordedFrame};
 pub use sealed::{Unsealed, sealed, unsealed};

@@ -87,6 +87,8 @@ pub(crate) use obstacles::Obstacles;
 pub use outputs::AskedAnalysis;
 pub(crate) use quick::QuickCheck;
 pub use random::Random;
+#[cfg(feature = "program")]
+pub use raw::scene_schema;
 #[cfg(feature = "files")]
 pub use settings::Written;
 pub use settings::{

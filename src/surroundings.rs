@@ -43,6 +43,7 @@ mod polytope;
 mod revolved;
 mod rod;
 mod sensor;
+mod skin;
 mod slant;
 mod solid;
 mod torus;
@@ -66,6 +67,7 @@ pub use mesh::{FilePlace, MeshError, MeshReport};
 pub use polytope::Polytope;
 pub use rod::Rod;
 
+use skin::Detail;
 use solid::{Obstacle, Solid, solids};
 
 use crate::contact::FreeFlight;
@@ -149,8 +151,30 @@ impl<T: Real> Shape<T> {
         }
     }
 
+    /// Its surface as triangles, for pictures: each by its corners, length, counter-clockwise
+    /// as seen from where spheres are; of what is thin from one side or the other. What has no
+    /// end goes as far as a box with these corners; a circle has `around` of its own.
+    ///
+    /// ```
+    /// use carom::surroundings::{Cuboid, Shape};
+    /// use carom::Vec3;
+    /// let brick = Shape::from(Cuboid::solid([0.0_f64; 3], [1.0, 2.0, 3.0]));
+    /// assert_eq!(brick.triangles([Vec3::ZERO; 2], 64).len(), 12);
+    /// ```
+    #[must_use]
+    pub fn triangles(&self, within: [Vec3<T>; 2], around: usize) -> Vec<[Vec3<T>; 3]> {
+        self.skin(&Detail { within, around: around.max(3) })
+    }
+
     /// Whether it only counts.
-    pub(crate) fn is_sensor(&self) -> bool {
+    ///
+    /// ```
+    /// use carom::surroundings::{Plane, Sensor, Shape};
+    /// let level = Plane::new([0.0; 3], [0.0, 0.0, 1.0]);
+    /// assert!(!Shape::from(level).is_sensor() && Shape::from(Sensor::new(level)).is_sensor());
+    /// ```
+    #[must_use]
+    pub fn is_sensor(&self) -> bool {
         matches!(self, Self::Sensor(_))
     }
 }

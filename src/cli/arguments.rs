@@ -13,7 +13,8 @@ use clap_complete::Shell;
 
 use super::analyse::KINDS;
 use super::events::bodies;
-use super::pictures::PictureArguments;
+use super::picture::ColorBy;
+use super::pictures::PictureLook;
 use super::study::{StudyCommand, StudyFolder};
 use super::variation::MOST_RUNS;
 
@@ -33,6 +34,8 @@ Examples:
   carom explain gas.toml                what the engine does for it, and skips
   carom analyse gas.npz                 what recorded frames amount to
   carom plot gas.csv                    draw a time series of a run
+  carom picture gas.toml -o gas.svg     draw its spheres
+  carom view gas.toml                   play its motion in a browser: gas.html
   carom sweep gas.toml --vary spheres[0].radius=0.1:0.3:5   a run for each value
   carom batch gas.toml --count 10000 --output gas.csv   a run for each of many seeds
   carom study error gas.toml            what each method costs, and its error
@@ -83,10 +86,18 @@ Examples:
 Examples:
   carom scenes                          list them
   carom scenes rough-gas > gas.toml     start a file of your own from one
-  carom run gas.toml                    and run it")]
+  carom run gas.toml                    and run it
+  carom scenes --schema > carom.schema.json   let an editor check and complete it
+
+With #:schema ./carom.schema.json as its first line, editors that know TOML by taplo (Even
+Better TOML, Helix, Neovim) check a scene file as it is written.")]
     Scenes {
         /// The built-in scene to print.
         name: Option<String>,
+
+        /// Print the JSON Schema of scene files, for editors.
+        #[arg(long, conflicts_with = "name")]
+        schema: bool,
     },
     /// Find in recorded frames how bodies are arranged, and how they move.
     ///
@@ -112,6 +123,49 @@ Examples:
   carom plot gas.csv -o energy.pdf --columns energy,kinetic,potential --width 302
   carom plot breaks.csv --histogram --columns pairs,x[0]   of the rows of a batch")]
     Plot(PlotArguments),
+    /// Draw a still picture of a scene, a state or a recorded frame.
+    ///
+    /// Spheres are shaded, and fixed parts drawn around them: walls behind them, what would
+    /// hide them by its edges.
+    #[command(
+        mut_arg("scene", |scene| scene.help(format!(
+            "A scene file, the name of a built-in scene, a state file ending in .csv, or \
+             recorded frames: {} [default: {DEFAULT_SCENE}]", FrameReader::ENDINGS
+        ))),
+        mut_arg("duration", |at| at.long("at").help(
+            "How long a scene runs before it is drawn; of frames the first one from this time on \
+             [default: the start of a scene, the last frame]"
+        )),
+        mut_arg("width", |width| width.default_value("640").help(
+            "Width of the picture, 96 pixels to the inch; text keeps its size"
+        )),
+        after_help = "\
+Examples:
+  carom picture rough-gas               draws rough-gas.svg, the start of it
+  carom picture gas.toml --at 5 -o gas.png --color speed   five units of time later
+  carom picture end.csv -o end.pdf --from 1,0,0 --width 302   a state, along the x axis
+  carom picture gas.npz --theme dark --perspective 30      the last of recorded frames
+
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
+    Picture(PictureArguments),
+    /// Make one HTML file that plays the motion in a browser.
+    ///
+    /// It needs no network and nothing beside it: spheres, fixed parts and the script are in the
+    /// file. Spheres that turn have marks.
+    #[command(
+        mut_arg("scene", |scene| scene.help(format!(
+            "A scene file, the name of a built-in scene, or recorded frames: {} \
+             [default: {DEFAULT_SCENE}]", FrameReader::ENDINGS
+        ))),
+        after_help = "\
+Examples:
+  carom view superball                  runs it, and makes superball.html
+  carom view gas.toml --duration 5 --frames 600 -o gas.html
+  carom view gas.npz                    the frames that a run has recorded
+
+Mouse and touch turn, move and zoom; Space plays, arrows go from frame to frame.
+Exit status: 0 done, 2 a mistake in the arguments or the scene, 1 otherwise.")]
+    View(ViewArguments),
     /// Run a scene once for each value of some of its keys, side by side on all cores.
     ///
     /// Each run is one row of a table; runs that differ in nothing but the seed give means
@@ -416,7 +470,7 @@ pub struct PlotArguments {
     pub output: Option<PathBuf>,
 
     #[command(flatten)]
-    pub pictures: PictureArguments,
+    pub pictures: PictureLook,
 
     /// Which columns to draw [default: all that have numbers]
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
@@ -432,6 +486,90 @@ pub struct PlotArguments {
         value_parser = clap::value_parser!(u32).range(1..=10_000)
     )]
     pub bins: Option<u32>,
+}
+
+/// What `carom picture` takes.
+#[derive(Args, Debug)]
+pub struct PictureArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// The picture, .svg, .png or .pdf [default: the subject's name with .svg]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// What the colours of spheres say
+    #[arg(long, value_parser = one_of(&COLORS), default_value = "species")]
+    pub color: ColorBy,
+
+    /// The direction from which it is seen [default: from the front, the right and above]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    pub from: Option<[f64; 3]>,
+
+    /// What is up [default: against gravity, or along z]
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    pub up: Option<[f64; 3]>,
+
+    /// The angle of view, degrees: what is nearer is larger then
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_negative_numbers = true)]
+    pub perspective: Option<f64>,
+
+    /// Leave out what says what the colours mean
+    #[arg(long)]
+    pub no_legend: bool,
+
+    #[command(flatten)]
+    pub pictures: PictureLook,
+}
+
+/// What `carom view` takes.
+#[derive(Args, Debug)]
+pub struct ViewArguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+
+    /// The page [default: the subject's name with .html]
+    #[arg(short, long, value_name = "FILE.html")]
+    pub output: Option<PathBuf>,
+
+    /// How many frames of a scene there are beside its start [default: 300]; of recorded ones
+    /// the most that are kept
+    #[arg(long, value_name = "N", allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    pub frames: Option<u64>,
+
+    /// How large its data may be, megabytes; every second frame is left out until they are not
+    /// larger
+    #[arg(long, value_name = "MB", default_value_t = 64, allow_negative_numbers = true,
+          value_parser = clap::value_parser!(u64).range(1..=1_000))]
+    pub limit: u64,
+}
+
+const COLORS: [(&str, ColorBy); 3] =
+    [("species", ColorBy::Species), ("speed", ColorBy::Speed), ("spin", ColorBy::Spin)];
+
+/// Takes a direction.
+fn direction(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Vec<f64> =
+        text.split(',').filter_map(|number| number.trim().parse().ok()).collect();
+    match numbers[..] {
+        [x, y, z] if text.split(',').count() == 3 => {
+            let length = (x * x + y * y + z * z).sqrt();
+            if length.is_normal() {
+                return Ok([x / length, y / length, z / length]);
+            }
+            Err("it must have a length above 0 in the range of numbers".to_owned())
+        }
+        _ => Err("it must be three numbers, as 1,0,0.5".to_owned()),
+    }
+}
+
+/// Takes an angle of view.
+fn angle(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1.0..=120.0).contains(&value) => Ok(value),
+        _ => Err("it must be a number from 1 to 120".to_owned()),
+    }
 }
 
 impl SceneArguments {

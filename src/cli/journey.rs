@@ -23,8 +23,27 @@ use super::progress::Progress;
 use super::recording::Recorder;
 use super::series::Series;
 
-/// How long the engine runs between two looks at the clock.
-const STRETCH: Duration = Duration::from_millis(50);
+/// How far the engine goes between two looks at the clock, as [`Course::advance`] has it.
+pub struct Stretch(pub u64);
+
+impl Stretch {
+    /// How long one is to take.
+    const USUAL: Duration = Duration::from_millis(50);
+
+    /// The shortest one.
+    pub fn new() -> Self {
+        Self(1)
+    }
+
+    /// The next one is longer or shorter, by how long this one has taken.
+    pub fn adapt(&mut self, taken: Duration) {
+        if taken < Self::USUAL / 2 {
+            self.0 = self.0.saturating_mul(2);
+        } else if taken > Self::USUAL * 2 {
+            self.0 = (self.0 / 2).max(1);
+        }
+    }
+}
 
 /// What a run writes on its way.
 pub struct OnTheWay {
@@ -99,7 +118,7 @@ impl<T: Real> Journey<T> {
         mut on_the_way: OnTheWay,
     ) -> Result<Arrived, Failure> {
         let mut progress = Progress::new(self.course, self.energy);
-        let mut stretch: u64 = 1;
+        let mut stretch = Stretch::new();
         let length = self.course.length();
         if let Some(keeper) = &mut on_the_way.keeper {
             keeper.set_out(world, &self.course);
@@ -111,14 +130,10 @@ impl<T: Real> Journey<T> {
         loop {
             let mark = self.mark(&on_the_way);
             let start = Instant::now();
-            let is_there = self.advance(world, &mut on_the_way, mark, stretch)?;
+            let is_there = self.advance(world, &mut on_the_way, mark, stretch.0)?;
             let taken = start.elapsed();
             self.busy += taken;
-            if taken < STRETCH / 2 {
-                stretch = stretch.saturating_mul(2);
-            } else if taken > STRETCH * 2 {
-                stretch = (stretch / 2).max(1);
-            }
+            stretch.adapt(taken);
             progress.show(world, self.busy);
             let start = Instant::now();
             if is_there {

@@ -7,7 +7,7 @@ use super::arguments::one_of;
 
 /// What pictures look like.
 #[derive(Args, Clone, Copy, Debug)]
-pub struct PictureArguments {
+pub struct PictureLook {
     /// Colours of the pictures
     #[arg(long, value_parser = one_of(&THEMES), default_value = "light")]
     theme: Theme,
@@ -21,7 +21,7 @@ pub struct PictureArguments {
 
 const THEMES: [(&str, Theme); 2] = [("light", Theme::Light), ("dark", Theme::Dark)];
 
-impl PictureArguments {
+impl PictureLook {
     /// As the library has it.
     pub fn look(self) -> Look {
         Look { theme: self.theme, width: self.width }

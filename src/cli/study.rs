@@ -14,7 +14,7 @@ use clap::{Args, Subcommand};
 
 use super::arguments::{SceneArguments, positive};
 use super::failure::Failure;
-use super::pictures::PictureArguments;
+use super::pictures::PictureLook;
 use super::print;
 use super::scene_argument::scene_file;
 use watch::Teller;
@@ -176,7 +176,7 @@ pub struct StudyOutput {
     folder: StudyFolder,
 
     #[command(flatten)]
-    pictures: PictureArguments,
+    pictures: PictureLook,
 }
 
 impl StudyOutput {

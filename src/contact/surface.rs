@@ -17,6 +17,7 @@ use super::law::Laws;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Surface {

@@ -9,6 +9,8 @@ mod rows;
 mod table;
 mod xyz;
 
+pub use figures::quaternion_of;
+
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 

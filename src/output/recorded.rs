@@ -123,6 +123,7 @@ pub struct FrameReader {
     source: Source,
     /// Of the frame before.
     bodies: Option<usize>,
+    in_full: bool,
     is_over: bool,
 }
 
@@ -156,22 +157,30 @@ impl FrameReader {
         };
         let path = path.to_path_buf();
         match source {
-            Ok(source) => Ok(Self { path, source, bodies: None, is_over: false }),
+            Ok(source) => Ok(Self { path, source, bodies: None, in_full: false, is_over: false }),
             Err(Wrong { place, problem }) => Err(FrameError { path, place, problem }),
         }
     }
 
+    /// Reads spins and orientations too, where the file has them, and takes frames of other
+    /// numbers of bodies than the first one: for pictures.
+    #[must_use]
+    pub fn in_full(self) -> Self {
+        Self { in_full: true, ..self }
+    }
+
     fn read(&mut self) -> Result<Option<RecordedFrame>, Wrong> {
+        let in_full = self.in_full;
         let (frame, place) = match &mut self.source {
-            Source::Dump(lines) => (dump::read(lines)?, lines.place()),
-            Source::Xyz(lines) => (xyz::read(lines)?, lines.place()),
-            Source::NumPy(arrays) => (arrays.read()?, FramePlace::File),
-            Source::Parquet(rows) => (rows.read()?, FramePlace::File),
+            Source::Dump(lines) => (dump::read(lines, in_full)?, lines.place()),
+            Source::Xyz(lines) => (xyz::read(lines, in_full)?, lines.place()),
+            Source::NumPy(arrays) => (arrays.read(in_full)?, FramePlace::File),
+            Source::Parquet(rows) => (rows.read(in_full)?, FramePlace::File),
         };
         let Some(frame) = frame else { return Ok(None) };
         let count = frame.bodies.len();
         let before = *self.bodies.get_or_insert(count);
-        if before != count {
+        if before != count && !in_full {
             let problem = format!("a frame of {count} bodies comes after one of {before}");
             return Err(Wrong::new(place, problem));
         }

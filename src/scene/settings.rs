@@ -20,6 +20,7 @@ use crate::real::Real;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Precision {
@@ -77,6 +78,7 @@ impl fmt::Display for Precision {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum EngineKind {
@@ -102,6 +104,7 @@ pub enum EngineKind {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Encounters {
@@ -158,6 +161,7 @@ pub struct SteppedSettings {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Impact {
@@ -194,6 +198,7 @@ impl fmt::Display for Impact {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum OrientationUpdate {
@@ -207,6 +212,7 @@ pub enum OrientationUpdate {
 /// How the stepped engine adds up positions and velocities from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Summation {
@@ -248,6 +254,7 @@ pub struct Written {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum AnalysisKind {

@@ -69,6 +69,7 @@ impl From<RangeInclusive<f64>> for Spread {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", serde(rename_all = "kebab-case"))]
 pub enum Arrangement {
     /// A face-centred cubic lattice, the densest there is.

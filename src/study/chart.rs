@@ -15,7 +15,7 @@ use super::folder::Folder;
 use canvas::Canvas;
 
 pub use axis::{Axis, Scale};
-pub use look::{Look, Theme};
+pub use look::{Color, Look, Theme};
 
 /// How points are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -177,7 +177,7 @@ impl Picture {
         match format {
             Format::Svg => Ok(self.svg(look)?.into_bytes()),
             Format::Png => self.png(look),
-            Format::Pdf => pdf(&self.svg(look)?),
+            Format::Pdf => pdf_of(&self.svg(look)?),
         }
     }
 
@@ -205,7 +205,7 @@ impl Picture {
         let mut canvas = Canvas::new(area, FINE, look.ground());
         self.draw(&mut canvas, look);
         canvas.finish()?;
-        encoded(&pixels, size).map_err(|error| error.to_string())
+        png_of(&pixels, size)
     }
 }
 
@@ -214,7 +214,21 @@ fn fine((width, height): (f64, f64), pixels: f64) -> (u32, u32) {
     ((width * pixels).ceil() as u32, (height * pixels).ceil() as u32)
 }
 
-/// The file of a picture of three bytes a pixel, row by row.
+/// The PNG file of an image of three bytes a pixel, row by row.
+///
+/// ```
+/// use carom::study::chart::png_of;
+/// let file = png_of(&[255, 0, 0, 0, 0, 255], (2, 1))?;
+/// assert!(file.starts_with(b"\x89PNG"));
+/// # Ok::<(), String>(())
+/// ```
+///
+/// # Errors
+/// If there are more or fewer pixels, as a sentence.
+pub fn png_of(pixels: &[u8], size: (u32, u32)) -> Result<Vec<u8>, String> {
+    encoded(pixels, size).map_err(|error| error.to_string())
+}
+
 fn encoded(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -229,9 +243,12 @@ fn encoded(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::E
     Ok(bytes)
 }
 
-/// The file of a picture, made of its SVG.
+/// The PDF file of an SVG.
+///
+/// # Errors
+/// If this crate is built without the feature `pdf`, or it is no SVG, as a sentence.
 #[cfg(feature = "pdf")]
-fn pdf(svg: &str) -> Result<Vec<u8>, String> {
+pub fn pdf_of(svg: &str) -> Result<Vec<u8>, String> {
     use svg2pdf::usvg::{Options, Tree};
     use svg2pdf::{ConversionOptions, PageOptions};
 
@@ -242,8 +259,12 @@ fn pdf(svg: &str) -> Result<Vec<u8>, String> {
     svg2pdf::to_pdf(&tree, ConversionOptions::default(), page).map_err(|error| error.to_string())
 }
 
+/// The PDF file of an SVG.
+///
+/// # Errors
+/// This crate is built without the feature `pdf`.
 #[cfg(not(feature = "pdf"))]
-fn pdf(_: &str) -> Result<Vec<u8>, String> {
+pub fn pdf_of(_: &str) -> Result<Vec<u8>, String> {
     Err("this program is built without PDF: write an .svg, or build with --features pdf".to_owned())
 }
 

@@ -7,6 +7,7 @@ use super::mistake::{Mistake, point, positive};
 use super::piece::Piece;
 use super::pieced::Pieced;
 use super::placement::Placement;
+use super::skin::{Corners, Detail, from_inside};
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{FreeFlight, greatest_component};
@@ -177,6 +178,16 @@ impl<T: Real> Solid<T> for Capsule<T> {
     fn area(&self) -> Option<T> {
         let [a, b] = self.ends;
         Some(pi::<T>() * T::whole(2) * self.radius * ((b - a).length() + self.radius * T::whole(2)))
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let [a, b] = self.ends;
+        let length = (b - a).length();
+        let way = if length > T::ZERO { b - a } else { Vec3::new(T::ZERO, T::ZERO, T::ONE) };
+        let axis = Axis::new(a.to_array(), way.to_array());
+        let mut profile = detail.arc([T::ZERO; 2], self.radius, [-1, 0]);
+        profile.extend(detail.arc([T::ZERO, length], self.radius, [0, 1]));
+        from_inside(detail.turned(&axis, &profile), self.inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -5,6 +5,7 @@ use super::entry::{AXIS, BASE, HEIGHT, INSIDE, Key, Meaning, RADIUS, ShapeEntry,
 use super::gate::Gate;
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
+use super::skin::{Corners, Detail, from_inside};
 use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature, Frustum, Plane};
@@ -190,6 +191,23 @@ impl<T: Real> Solid<T> for Cone<T> {
         let Extent::Ended(height, [base, top]) = self.extent else { return None };
         let wall = Slant::new([base, T::ZERO], [top, height]).area();
         Some(wall + pi::<T>() * (base * base + top * top))
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let zero = T::ZERO;
+        let triangles = match self.extent {
+            Extent::Ended(height, [base, top]) => {
+                let profile = [[zero, zero], [base, zero], [top, height], [zero, height]];
+                detail.turned(&self.axis, &profile)
+            }
+            Extent::Endless(slope) => {
+                let [_, height] = detail.heights(&self.axis);
+                let height = height.greater(zero);
+                // What is within the cone is below its profile.
+                detail.turned(&self.axis, &[[zero, zero], [slope * height, height]])
+            }
+        };
+        from_inside(triangles, self.inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

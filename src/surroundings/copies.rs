@@ -3,6 +3,7 @@
 use super::entry::{Key, ShapeEntry};
 use super::mistake::{Mistake, finite};
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::Solid;
 use super::{Feature, Shape};
 use crate::real::Real;
@@ -156,6 +157,15 @@ impl<T: Real> Solid<T> for Copies<T> {
     fn cast<B: Real>(&self) -> Copies<B> {
         let rows = self.rows.iter().map(|row| Row { step: row.step.cast(), count: row.count });
         Copies { shape: Box::new(self.shape.cast()), rows: rows.collect() }
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        // Many of them are small in a picture.
+        let around = [(16, detail.around), (256, 24), (4096, 12)];
+        let around = around.iter().find(|(count, _)| self.number() <= *count);
+        let around = around.map_or(12, |(_, around)| *around).min(detail.around);
+        let detail = Detail { around, ..*detail };
+        (0..self.number()).flat_map(|number| self.copy(number).skin(&detail)).collect()
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

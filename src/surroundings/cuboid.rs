@@ -7,6 +7,7 @@ use super::mistake::{Mistake, corners};
 use super::piece::Piece;
 use super::pieced::Pieced;
 use super::placement::Placement;
+use super::skin::{Corners, Detail, fan, from_inside};
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature, Plane};
 use crate::contact::{FreeFlight, greatest_component};
@@ -268,6 +269,17 @@ impl<T: Real> Solid<T> for Cuboid<T> {
     fn area(&self) -> Option<T> {
         let Vec3 { x, y, z } = self.upper - self.lower;
         Some((x * y + y * z + z * x) * T::whole(2))
+    }
+
+    fn triangles(&self, _: &Detail<T>) -> Vec<Corners<T>> {
+        let faces =
+            [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let corner = |k: usize| {
+            let pick = |bit: usize| if k >> bit & 1 == 0 { self.lower } else { self.upper };
+            self.placed(Vec3::new(pick(0).x, pick(1).y, pick(2).z))
+        };
+        let triangles = faces.into_iter().flat_map(|face| fan(&face.each(corner))).collect();
+        from_inside(triangles, self.inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

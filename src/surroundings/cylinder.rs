@@ -5,8 +5,10 @@ use super::entry::{AXIS, CENTER, HALF_HEIGHT, HEIGHT, INSIDE, Key, RADIUS, Shape
 use super::gate::Gate;
 use super::mistake::{Mistake, direction, point, positive};
 use super::placement::Placement;
+use super::skin::{Corners, Detail, from_inside};
 use super::solid::Solid;
 use super::{Feature, Frustum, Plane, Rod};
+use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::joined;
 use crate::vec3::Vec3;
@@ -124,6 +126,22 @@ impl<T: Real> Solid<T> for Cylinder<T> {
 
     fn area(&self) -> Option<T> {
         Some(pi::<T>() * T::whole(2) * self.radius * (self.height? + self.radius))
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let (zero, radius) = (T::ZERO, self.radius);
+        let triangles = match self.height {
+            Some(height) => {
+                let [low, high] = [-height, height].each(|height| height * T::ratio(1, 2));
+                let profile = [[zero, low], [radius, low], [radius, high], [zero, high]];
+                detail.turned(&self.axis, &profile)
+            }
+            None => {
+                let profile = detail.heights(&self.axis).each(|height| [radius, height]);
+                detail.turned(&self.axis, &profile)
+            }
+        };
+        from_inside(triangles, self.inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

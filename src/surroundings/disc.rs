@@ -5,6 +5,7 @@ use super::entry::{AXIS, CENTER, Key, Meaning, RADIUS, ShapeEntry};
 use super::gate::{Gate, Opening};
 use super::mistake::{Mistake, direction, not_negative, point, positive};
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::slant::Slant;
 use super::solid::Solid;
 use super::{Band, Feature, Plane};
@@ -119,6 +120,10 @@ impl<T: Real> Solid<T> for Disc<T> {
         let Axis { center, direction } = self.axis;
         let opening = Opening::Ring([self.hole_radius, self.radius], center);
         Some(Gate::flat(Plane { point: center, normal: direction }, Some(opening)))
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        detail.turned(&self.axis, &[[self.hole_radius, T::ZERO], [self.radius, T::ZERO]])
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -1,10 +1,12 @@
 //! Fixed sphere: a solid ball, or the hollow in one.
 
+use super::axis::Axis;
 use super::axis::pi;
 use super::entry::{CENTER, INSIDE, Key, RADIUS, ShapeEntry};
 use super::gate::Gate;
 use super::mistake::{Mistake, point, positive};
 use super::placement::Placement;
+use super::skin::{Corners, Detail, from_inside};
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{Approach, FreeFlight, Start, greatest_component};
@@ -142,6 +144,12 @@ impl<T: Real> Solid<T> for FixedSphere<T> {
 
     fn area(&self) -> Option<T> {
         Some(pi::<T>() * T::whole(4) * self.radius * self.radius)
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let axis = Axis { center: self.center, direction: Vec3::new(T::ZERO, T::ZERO, T::ONE) };
+        let half_circle = detail.arc([T::ZERO; 2], self.radius, [-1, 1]);
+        from_inside(detail.turned(&axis, &half_circle), self.inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -12,6 +12,7 @@ use super::entry::{FILE, Key, Meaning, ShapeEntry};
 use super::mesh::{Mesh, MeshError};
 use super::mistake::Mistake;
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::Solid;
 use crate::numbers::array::Each;
 use crate::real::Real;
@@ -245,6 +246,10 @@ impl<T: Real> Solid<T> for Heightfield<T> {
 
     fn cast<B: Real>(&self) -> Heightfield<B> {
         Heightfield { mesh: self.mesh.cast() }
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        Solid::triangles(&self.mesh, detail)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

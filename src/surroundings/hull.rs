@@ -4,6 +4,7 @@ use super::convex_hull::hull_triangles;
 use super::entry::{Key, ShapeEntry, VERTICES};
 use super::mistake::{Mistake, finite};
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::Solid;
 use super::{Feature, Polytope};
 use crate::numbers::array::Each;
@@ -96,6 +97,11 @@ impl<T: Real> Solid<T> for Hull<T> {
             (b - a).cross(c - a).length() * T::ratio(1, 2)
         };
         Some(self.triangles()?.into_iter().map(area).fold(T::ZERO, |sum, area| sum + area))
+    }
+
+    fn triangles(&self, _: &Detail<T>) -> Vec<Corners<T>> {
+        let triangles = self.triangles().into_iter().flatten();
+        triangles.map(|corners| corners.each(|k| self.vertices[k])).collect()
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -18,6 +18,7 @@ use super::Feature;
 use super::entry::{FILE, Key, Meaning, ShapeEntry, VERTICES};
 use super::mistake::Mistake;
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::Solid;
 use crate::contact::greatest_component;
 use crate::numbers::array::Each;
@@ -378,6 +379,11 @@ impl<T: Real> Solid<T> for Mesh<T> {
         // In its own precision it is a copy, which shares all that was worked out.
         let same = (self as &dyn Any).downcast_ref::<Mesh<B>>();
         same.cloned().unwrap_or_else(|| self.with_vertices(Vec3::cast))
+    }
+
+    fn triangles(&self, _: &Detail<T>) -> Vec<Corners<T>> {
+        let triangles = self.triangles().iter();
+        triangles.map(|corners| corners.each(|k| self.vertices[k as usize])).collect()
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

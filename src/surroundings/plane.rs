@@ -4,6 +4,7 @@ use super::entry::{Key, Meaning, ShapeEntry};
 use super::gate::Gate;
 use super::mistake::{Mistake, direction, point};
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::{Obstacle, Solid};
 use super::{Clearance, Feature};
 use crate::contact::{FreeFlight, Start, fall_of_height, greatest_component};
@@ -105,6 +106,10 @@ impl<T: Real> Solid<T> for Plane<T> {
 
     fn gate(&self) -> Option<Gate<T>> {
         Some(Gate::flat(*self, None))
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        detail.plane(self.point, self.normal)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

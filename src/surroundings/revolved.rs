@@ -5,6 +5,7 @@ use super::entry::{AXIS, CENTER, INSIDE, Key, Meaning, ShapeEntry};
 use super::gate::Gate;
 use super::mistake::{Mistake, direction, point};
 use super::placement::Placement;
+use super::skin::{Corners, Detail, from_inside};
 use super::slant::Slant;
 use super::solid::Solid;
 use super::{Band, Chain, Feature};
@@ -264,6 +265,15 @@ impl<T: Real> Solid<T> for Revolved<T> {
     fn area(&self) -> Option<T> {
         let area = self.lines().iter().fold(T::ZERO, |sum, line| sum + line.area());
         Some(if self.is_closed { area } else { area * T::whole(2) })
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let mut profile = self.profile.clone();
+        if self.is_closed {
+            profile.extend(self.profile.first());
+        }
+        let is_seen_from_inside = (self.area() < T::ZERO) != self.inside;
+        from_inside(detail.turned(&self.axis, &profile), self.is_closed && is_seen_from_inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -4,6 +4,7 @@ use super::entry::{Key, ShapeEntry};
 use super::gate::Gate;
 use super::mistake::Mistake;
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::Solid;
 use super::{Feature, Shape};
 use crate::real::Real;
@@ -85,6 +86,10 @@ impl<T: Real> Solid<T> for Sensor<T> {
 
     fn cast<B: Real>(&self) -> Sensor<B> {
         Sensor::of(self.shape.cast())
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        self.shape.skin(detail)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

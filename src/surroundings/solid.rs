@@ -4,6 +4,7 @@ use super::entry::{Key, ShapeEntry};
 use super::gate::Gate;
 use super::mistake::Mistake;
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::{Clearance, Feature, Mesh};
 use crate::contact::FreeFlight;
 use crate::lane::Lane;
@@ -70,6 +71,9 @@ pub(crate) trait Solid<T: Real>: Clone {
 
     /// The same shape, scaled, turned and moved.
     fn placed(&self, at: &Placement<T>) -> Self;
+
+    /// Its surface, for pictures.
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>>;
 
     /// What a sphere can touch in one point at a time: the shape itself, or
     /// what it falls apart into.
@@ -268,6 +272,13 @@ macro_rules! solids {
                 }
             }
 
+            /// As [`Solid::triangles`].
+            pub(super) fn skin(&self, detail: &Detail<T>) -> Vec<skin::Corners<T>> {
+                match self {
+                    $(Self::$solid(solid) => Solid::triangles(solid, detail),)*
+                }
+            }
+
             /// As [`Solid::points`].
             pub(crate) fn points(&self) -> Vec<Vec3<T>> {
                 match self {
@@ -289,8 +300,15 @@ macro_rules! solids {
                 }
             }
 
-            /// As [`Solid::extent`].
-            pub(crate) fn bounds(&self) -> Option<[Vec3<T>; 2]> {
+            /// The corners of the box around the solid, length; `None` without end.
+            ///
+            /// ```
+            /// use carom::surroundings::{FixedSphere, Shape};
+            /// let ball = Shape::from(FixedSphere::solid([1.0, 0.0, 0.0], 2.0));
+            /// assert_eq!(ball.bounds().map(|[lower, _]| lower.x), Some(-1.0));
+            /// ```
+            #[must_use]
+            pub fn bounds(&self) -> Option<[Vec3<T>; 2]> {
                 match self {
                     $(Self::$solid(solid) => solid.extent(),)*
                 }
@@ -318,8 +336,15 @@ macro_rules! solids {
                 }
             }
 
-            /// As [`Solid::is_thin`].
-            pub(crate) fn is_thin(&self) -> bool {
+            /// Whether it is touched from both sides and has no inside.
+            ///
+            /// ```
+            /// use carom::surroundings::{Disc, Plane, Shape};
+            /// assert!(Shape::from(Disc::new([0.0; 3], [0.0, 0.0, 1.0], 3.0, 1.0)).is_thin());
+            /// assert!(!Shape::from(Plane::new([0.0; 3], [0.0, 0.0, 1.0])).is_thin());
+            /// ```
+            #[must_use]
+            pub fn is_thin(&self) -> bool {
                 match self {
                     $(Self::$solid(solid) => solid.is_thin(),)*
                 }

@@ -8,6 +8,7 @@ use super::mistake::{Mistake, direction, point, positive};
 use super::piece::Piece;
 use super::pieced::Pieced;
 use super::placement::Placement;
+use super::skin::{Corners, Detail, from_inside};
 use super::solid::{Obstacle, Solid};
 use crate::contact::{FreeFlight, greatest_component};
 use crate::lane::Lane;
@@ -163,6 +164,11 @@ impl<T: Real> Solid<T> for Torus<T> {
 
     fn area(&self) -> Option<T> {
         Some(pi::<T>() * pi::<T>() * T::whole(4) * self.radius * self.tube_radius)
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let circle = detail.arc([self.radius, T::ZERO], self.tube_radius, [0, 4]);
+        from_inside(detail.turned(&self.axis, &circle), self.inside)
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -4,6 +4,7 @@ use super::entry::{Key, ShapeEntry, VERTICES};
 use super::gate::{Gate, Opening};
 use super::mistake::{Mistake, point};
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::solid::Solid;
 use super::{Facet, Feature, Plane};
 use crate::numbers::array::Each;
@@ -103,6 +104,10 @@ impl<T: Real> Solid<T> for Triangle<T> {
         let normal = across * (T::ONE / across.length());
         let opening = Opening::Triangle(self.corners, normal);
         Some(Gate::flat(Plane { point: a, normal }, Some(opening)))
+    }
+
+    fn triangles(&self, _: &Detail<T>) -> Vec<Corners<T>> {
+        vec![self.corners]
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::entry::{AXIS, BASE, CENTER, HALF_HEIGHT, HEIGHT, Key, RADIUS, ShapeEntry, TOP_RADIUS};
 use super::mistake::Mistake;
 use super::placement::Placement;
+use super::skin::{Corners, Detail};
 use super::slant::{Slant, check_slanted};
 use super::solid::Solid;
 use super::{Band, Feature};
@@ -99,6 +100,11 @@ impl<T: Real> Solid<T> for Tube<T> {
     fn area(&self) -> Option<T> {
         let [base, top] = self.radii;
         Some(Slant::new([base, T::ZERO], [top, self.height]).area() * T::whole(2))
+    }
+
+    fn triangles(&self, detail: &Detail<T>) -> Vec<Corners<T>> {
+        let [base, top] = self.radii;
+        detail.turned(&self.axis, &[[base, T::ZERO], [top, self.height]])
     }
 
     fn points(&self) -> Vec<Vec3<T>> {

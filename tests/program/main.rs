@@ -12,6 +12,8 @@ mod flow;
 mod frames;
 mod measured;
 mod parquet;
+mod picture;
+mod schema;
 mod series;
 mod snapshots;
 mod sound;
@@ -20,6 +22,7 @@ mod streams;
 mod study;
 mod summary;
 mod sweep;
+mod view;
 
 use std::ffi::OsStr;
 use std::fs;

@@ -177,7 +177,9 @@ fn explain_prints_the_plan() {
 #[test]
 fn help_has_examples() {
     let folder = Folder::with("");
-    for arguments in ["--help", "run --help", "explain --help", "scenes --help"] {
+    for command in ["", "run", "explain", "scenes", "analyse", "plot", "picture", "view"] {
+        let arguments = format!("{command} --help");
+        let arguments = arguments.trim();
         assert!(folder.says(arguments).well().contains("Examples:"), "{arguments}");
     }
     let version = folder.says("--version").well();

@@ -33,7 +33,16 @@ pub fn bounds<T: Real>(frame: &Frame<'_, T>) -> [[T; 3]; 2] {
     corners
 }
 
-/// The orientation of a body as a unit quaternion.
+/// The orientation of a body as a unit quaternion, w, x, y, z, with w not negative.
+///
+/// ```
+/// use carom::Bodies;
+/// use carom::output::quaternion_of;
+/// let bodies = Bodies::from_positions(&[[0.0_f64; 3]]).radius(1.0).build()?;
+/// assert_eq!(quaternion_of(&bodies, 0), [1.0, 0.0, 0.0, 0.0]);
+/// # Ok::<(), carom::bodies::BodiesError>(())
+/// ```
+#[must_use]
 pub fn quaternion_of<T: Real>(bodies: &Bodies<T>, index: usize) -> [T; 4] {
     match bodies.orientation {
         None => [T::ONE, T::ZERO, T::ZERO, T::ZERO],

@@ -3,7 +3,7 @@
 use std::fs::File;
 use std::path::Path;
 
-use super::bodies::{Columns, NAMES, checked_count};
+use super::bodies::{Columns, NAMES, checked_count, wanted};
 use super::zip::{Entry, bytes_at, entries};
 use super::{FramePlace, RecordedFrame, Wrong};
 use crate::numbers::array;
@@ -159,12 +159,14 @@ impl Arrays {
     }
 
     /// The next frame; `None` behind the last one.
-    pub fn read(&mut self) -> Result<Option<RecordedFrame>, Wrong> {
+    pub fn read(&mut self, in_full: bool) -> Result<Option<RecordedFrame>, Wrong> {
         let Some(time) = self.times.get(self.next as usize).copied() else { return Ok(None) };
         let first = self.next * self.bodies;
         let mut columns = Columns::default();
-        for (values, array) in columns.values.iter_mut().zip(&self.columns) {
-            if let Some(array) = array {
+        let has = |name: &str| Columns::place(name).is_some_and(|at| self.columns[at].is_some());
+        let columns_of = columns.values.iter_mut().zip(&self.columns).zip(NAMES);
+        for ((values, array), name) in columns_of {
+            if let Some(array) = array.as_ref().filter(|_| wanted(name, in_full, has)) {
                 *values = array.read(&mut self.file, first, self.bodies)?;
             }
         }

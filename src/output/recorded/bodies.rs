@@ -4,8 +4,20 @@ use crate::bodies::Bodies;
 use crate::scene::MOST_BODIES;
 
 /// What the columns of frames are called here.
-pub const NAMES: [&str; 12] =
-    ["x", "y", "z", "vx", "vy", "vz", "radius", "mass", "ix", "iy", "iz", "id"];
+pub const NAMES: [&str; 19] = [
+    "x", "y", "z", "vx", "vy", "vz", "radius", "mass", "ix", "iy", "iz", "wx", "wy", "wz", "qw",
+    "qx", "qy", "qz", "id",
+];
+
+/// Columns that no analysis looks at: spins and orientations.
+const ROTATION: [&[&str]; 2] = [&["wx", "wy", "wz"], &["qw", "qx", "qy", "qz"]];
+
+/// The columns that are read of those that there are: of rotation none or all that belong
+/// together.
+pub fn wanted(name: &str, in_full: bool, has: impl Fn(&str) -> bool) -> bool {
+    let together = ROTATION.iter().find(|together| together.contains(&name));
+    together.is_none_or(|together| in_full && together.iter().all(|name| has(name)))
+}
 
 /// The columns of a frame under way, in the order of [`NAMES`]; empty where there is none.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +61,8 @@ impl Columns {
     /// The bodies, in the order of their `id` if there is one.
     pub fn bodies(mut self) -> Result<Found, String> {
         self.sort()?;
-        let [x, y, z, vx, vy, vz, radius, mass, ix, iy, iz, _] = &self.values;
+        let [x, y, z, vx, vy, vz, radius, mass, ix, iy, iz, wx, wy, wz, qw, qx, qy, qz, _] =
+            &self.values;
         let vectors = |x: &[f64], y: &[f64], z: &[f64]| -> Vec<[f64; 3]> {
             x.iter().zip(y).zip(z).map(|((x, y), z)| [*x, *y, *z]).collect()
         };
@@ -61,9 +74,19 @@ impl Columns {
         }
         let positions = vectors(x, y, z);
         let velocities = vectors(vx, vy, vz);
+        let spins = vectors(wx, wy, wz);
+        let quaternions = qw.iter().zip(qx).zip(qy).zip(qz);
+        let orientations: Vec<[f64; 9]> =
+            quaternions.map(|(((w, x), y), z)| rotation([*w, *x, *y, *z])).collect();
         let mut builder = Bodies::from_positions(&positions).radii(radius);
         if !velocities.is_empty() {
             builder = builder.velocities(&velocities);
+        }
+        if !spins.is_empty() {
+            builder = builder.spins(&spins);
+        }
+        if !orientations.is_empty() {
+            builder = builder.orientations(&orientations);
         }
         if !mass.is_empty() {
             builder = builder.masses(mass);
@@ -88,4 +111,21 @@ impl Columns {
         }
         Ok(())
     }
+}
+
+/// The rows of the rotation of a quaternion of any length; of none where that is 0.
+fn rotation([w, x, y, z]: [f64; 4]) -> [f64; 9] {
+    let square = w * w + x * x + y * y + z * z;
+    let twice = if square > 0.0 { 2.0 / square } else { 0.0 };
+    [
+        1.0 - twice * (y * y + z * z),
+        twice * (x * y - w * z),
+        twice * (x * z + w * y),
+        twice * (x * y + w * z),
+        1.0 - twice * (x * x + z * z),
+        twice * (y * z - w * x),
+        twice * (x * z - w * y),
+        twice * (y * z + w * x),
+        1.0 - twice * (x * x + y * y),
+    ]
 }

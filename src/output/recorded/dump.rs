@@ -1,12 +1,12 @@
 //! The text dump of LAMMPS.
 
-use super::bodies::{Columns, checked_count};
+use super::bodies::{Columns, checked_count, wanted};
 use super::lines::{Lines, finite, number};
 use super::{RecordedFrame, Wrong};
 use crate::space::PeriodicBox;
 
 /// Reads a frame; `None` behind the last one.
-pub fn read(lines: &mut Lines) -> Result<Option<RecordedFrame>, Wrong> {
+pub fn read(lines: &mut Lines, in_full: bool) -> Result<Option<RecordedFrame>, Wrong> {
     let mut time = None;
     let mut count = None;
     let mut space = None;
@@ -42,7 +42,7 @@ pub fn read(lines: &mut Lines) -> Result<Option<RecordedFrame>, Wrong> {
             let Some(count) = count else {
                 return Err(lines.wrong("there is no ITEM: NUMBER OF ATOMS before it"));
             };
-            let columns = rows(lines, names, count)?;
+            let columns = rows(lines, names, count, in_full)?;
             let (bodies, images) = columns.bodies().map_err(|problem| lines.wrong(problem))?;
             return Ok(Some(RecordedFrame { time, bodies, space, images }));
         } else {
@@ -72,16 +72,18 @@ fn bounds(lines: &mut Lines, sides: &str) -> Result<Option<PeriodicBox<f64>>, Wr
     Ok((periodic == 3).then(|| PeriodicBox::new(lower, upper)))
 }
 
-fn rows(lines: &mut Lines, names: &str, count: usize) -> Result<Columns, Wrong> {
+fn rows(lines: &mut Lines, names: &str, count: usize, in_full: bool) -> Result<Columns, Wrong> {
     let names: Vec<&str> = names.split_whitespace().collect();
     // Unwrapped coordinates serve too, and need no images.
     let is_unwrapped = !names.contains(&"x") && names.contains(&"xu");
+    let has_own = |name: &str| names.iter().any(|other| own_name(other) == name);
     let places: Vec<Option<usize>> = names
         .iter()
-        .map(|name| match (*name, is_unwrapped) {
+        .map(|name| match (own_name(name), is_unwrapped) {
             ("xu" | "yu" | "zu", true) => Columns::place(&name[..1]),
             ("ix" | "iy" | "iz", true) => None,
-            (name, _) => Columns::place(name),
+            (name, _) if wanted(name, in_full, |other| has_own(other)) => Columns::place(name),
+            _ => None,
         })
         .collect();
     let has = |name: &str| places.contains(&Columns::place(name));
@@ -113,4 +115,18 @@ fn rows(lines: &mut Lines, names: &str, count: usize) -> Result<Columns, Wrong> 
         }
     }
     Ok(columns)
+}
+
+/// What a column of a dump is called here.
+fn own_name(name: &str) -> &str {
+    match name {
+        "omegax" => "wx",
+        "omegay" => "wy",
+        "omegaz" => "wz",
+        "quatw" => "qw",
+        "quati" => "qx",
+        "quatj" => "qy",
+        "quatk" => "qz",
+        name => name,
+    }
 }

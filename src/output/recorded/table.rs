@@ -14,7 +14,7 @@ use parquet::file::reader::RowGroupReader;
 use parquet::file::serialized_reader::SerializedRowGroupReader;
 use xxhash_rust::xxh3::xxh3_64;
 
-use super::bodies::{Columns, NAMES, checked_count};
+use super::bodies::{Columns, NAMES, checked_count, wanted};
 use super::lines::finite;
 use super::zip::bytes_at;
 use super::{FramePlace, RecordedFrame, Wrong};
@@ -120,7 +120,12 @@ impl Rows {
     }
 
     /// The next frame; `None` behind the last one.
-    pub fn read(&mut self) -> Result<Option<RecordedFrame>, Wrong> {
+    pub fn read(&mut self, in_full: bool) -> Result<Option<RecordedFrame>, Wrong> {
+        let has = self.places;
+        let has = |name: &str| Columns::place(name).is_some_and(|at| has[at].is_some());
+        for (place, name) in self.places.iter_mut().zip(NAMES) {
+            *place = place.filter(|_| wanted(name, in_full, has));
+        }
         while self.frame_end().is_none() && self.next_group < self.known.num_row_groups() {
             self.read_group()?;
             let count = (self.columns.values[0].len() - self.passed) as u64;

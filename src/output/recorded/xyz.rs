@@ -7,11 +7,12 @@ use crate::numbers::array;
 use crate::space::PeriodicBox;
 
 /// Reads a frame; `None` behind the last one.
-pub fn read(lines: &mut Lines) -> Result<Option<RecordedFrame>, Wrong> {
+pub fn read(lines: &mut Lines, in_full: bool) -> Result<Option<RecordedFrame>, Wrong> {
     let Some(line) = lines.next()? else { return Ok(None) };
     let count = number(line, "a number of bodies").and_then(checked_count);
     let count = count.map_err(|problem| lines.wrong(problem))?;
-    let heading = Heading::parse(lines.within()?).map_err(|problem| lines.wrong(problem))?;
+    let heading =
+        Heading::parse(lines.within()?, in_full).map_err(|problem| lines.wrong(problem))?;
     let mut columns = Columns::default();
     for _ in 0..count {
         let line = lines.within()?;
@@ -46,7 +47,7 @@ struct Heading {
 }
 
 impl Heading {
-    fn parse(line: &str) -> Result<Self, String> {
+    fn parse(line: &str, in_full: bool) -> Result<Self, String> {
         let pairs = pairs(line);
         let value =
             |key: &str| pairs.iter().find(|(name, _)| *name == key).map(|(_, value)| *value);
@@ -55,7 +56,7 @@ impl Heading {
         let time = value("Time").map(finite).transpose()?;
         let properties = value("Properties")
             .ok_or("there are no Properties; extended XYZ is to have them here")?;
-        let places = places(properties)?;
+        let places = places(properties, in_full)?;
         let is_periodic = match value("pbc").map(|pbc| pbc.split_whitespace().collect::<Vec<_>>()) {
             None => value("Lattice").is_some(),
             Some(sides) if sides == ["T"; 3] => true,
@@ -100,7 +101,7 @@ fn pairs(line: &str) -> Vec<(&str, &str)> {
 }
 
 /// Where the values of a row go, by `name:type:count` of each property.
-fn places(properties: &str) -> Result<Vec<Option<usize>>, String> {
+fn places(properties: &str, in_full: bool) -> Result<Vec<Option<usize>>, String> {
     let fields: Vec<&str> = properties.split(':').collect();
     if !fields.len().is_multiple_of(3) {
         return Err("Properties are name:type:count of each".to_owned());
@@ -118,6 +119,8 @@ fn places(properties: &str) -> Result<Vec<Option<usize>>, String> {
             "radius" => &["radius"],
             "mass" => &["mass"],
             "id" => &["id"],
+            "omega" if in_full && count == 3 => &["wx", "wy", "wz"],
+            "orientation" if in_full && count == 4 => &["qx", "qy", "qz", "qw"],
             _ => &[],
         };
         if !names.is_empty() && names.len() != count {

@@ -1,6 +1,9 @@
 //! `[[surroundings]]` as it is written: a shape, and the keys of all shapes,
 //! sorted out by the shape later.
 
+#[cfg(feature = "program")]
+mod schema;
+
 use core::fmt;
 use std::sync::LazyLock;
 
@@ -44,18 +47,29 @@ impl RawSurroundings {
 
 /// `rotation`: how a shape is turned.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct RawRotation {
+    /// What it is turned about, of any length but 0.
+    #[cfg_attr(feature = "program", schemars(required))]
     pub(in crate::scene) axis: Option<Vector>,
+    /// How far, with the right hand, rad.
+    #[cfg_attr(feature = "program", schemars(required))]
     pub(in crate::scene) angle: Option<Number>,
+    /// A point of that axis, length; the origin by default.
     pub(in crate::scene) center: Option<Vector>,
 }
 
 /// One of `copies`: as many shapes, each a step from the one before.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[cfg_attr(feature = "program", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct RawRow {
+    /// How many there are in place of each one.
+    #[cfg_attr(feature = "program", schemars(required, extend("minimum" = 1)))]
     pub(in crate::scene) count: Option<Whole>,
+    /// From one to the next, length.
+    #[cfg_attr(feature = "program", schemars(required))]
     pub(in crate::scene) step: Option<Vector>,
 }
 

@@ -29,7 +29,7 @@ impl Default for Look {
 }
 
 /// Red, green and blue.
-pub(super) type Color = [u8; 3];
+pub type Color = [u8; 3];
 
 /// Colours that colour-blind readers can separate (Okabe and Ito 2008); the last one is
 /// that of text.
@@ -47,8 +47,9 @@ const DARK: [Color; 6] = [
 ];
 
 impl Look {
-    /// What is behind everything.
-    pub(super) fn ground(&self) -> Color {
+    /// What is behind everything: red, green and blue.
+    #[must_use]
+    pub fn ground(&self) -> Color {
         match self.theme {
             Theme::Light => [255; 3],
             Theme::Dark => [18, 20, 24],
@@ -56,7 +57,8 @@ impl Look {
     }
 
     /// This share of the colour of text on the ground.
-    pub(super) fn ink(&self, share: f64) -> Color {
+    #[must_use]
+    pub fn ink(&self, share: f64) -> Color {
         let text: Color = match self.theme {
             Theme::Light => [0; 3],
             Theme::Dark => [235; 3],
@@ -69,7 +71,13 @@ impl Look {
     }
 
     /// A colour of the palette; grey for `None`.
-    pub(super) fn color(&self, color: Option<usize>) -> Color {
+    ///
+    /// ```
+    /// use carom::study::chart::Look;
+    /// assert_eq!(Look::default().color(Some(0)), [0, 114, 178]);
+    /// ```
+    #[must_use]
+    pub fn color(&self, color: Option<usize>) -> Color {
         let palette = match self.theme {
             Theme::Light => LIGHT,
             Theme::Dark => DARK,
