@@ -73,7 +73,7 @@ pub fn charts(
             title: format!("{title}, {} values", values.len()),
             x: Axis::new(name, Scale::Linear),
             y: Axis::new("probability density", Scale::Linear),
-            series: vec![Series::new(name, outline).mark(Mark::Line)],
+            series: vec![Series::new(name, outline).color(0).mark(Mark::Line)],
         })
     };
     columns.iter().filter_map(chart).collect()
