@@ -159,7 +159,9 @@ fn drawn(scenery: &Scenery, moment: &Moment, arguments: &PictureArguments, look:
 
     let mut items = Vec::new();
     let centers = parts::some_of((0..bodies.len()).map(|k| bodies.position_of(k)));
-    let piece = typical_radius(bodies).max(4.0 / camera.scale());
+    // As small as spheres, for the order of both to be right.
+    let size = (within[1] - within[0]).length();
+    let piece = typical_radius(bodies).min(0.02 * size).max(4.0 / camera.scale());
     let parts = Parts { camera: &camera, look, within, centers, piece };
     for (shape, triangles) in &triangles {
         parts.draw(shape, triangles, &mut items);
@@ -173,7 +175,7 @@ fn drawn(scenery: &Scenery, moment: &Moment, arguments: &PictureArguments, look:
     let nears = discs.iter().map(|disc| disc.center.near);
     let [far, near] = nears.fold([f64::MAX, f64::MIN], |[a, b], it| [a.min(it), b.max(it)]);
     // Few spheres behind each other need no haze.
-    let deep = ((near - far) / (12.0 * piece)).min(1.0);
+    let deep = ((near - far) / (12.0 * typical_radius(bodies))).min(1.0);
     for (k, disc) in discs.into_iter().enumerate() {
         let share = if near > far { (near - disc.center.near) / (near - far) } else { 0.0 };
         let haze = (share * deep * f64::from(HAZES - 1)).round() as u8;

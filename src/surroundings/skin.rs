@@ -107,7 +107,12 @@ impl<T: Real> Detail<T> {
                 && (k == 0 && quarters[0] % 2 != 0 || k == count && quarters[1] % 2 != 0);
             [if is_pole { T::ZERO } else { distance }, center[1] + radius * sine]
         };
-        (0..=count).map(place).collect()
+        let mut places: Vec<[T; 2]> = (0..=count).map(place).collect();
+        if quarters[1] - quarters[0] == 4 {
+            // A whole circle ends where it begins, bit by bit.
+            places[count as usize] = places[0];
+        }
+        places
     }
 }
 
@@ -174,6 +179,30 @@ mod tests {
         let pin = FixedSphere::solid(origin, 0.5);
         is_near(volume(Copies::new(pin).along([2.0, 0.0, 0.0], 4)), 4.0 * PI / 6.0);
         is_near(volume(Sensor::new(pin)), PI / 6.0);
+    }
+
+    /// Each side of a triangle is that of another one, the other way, bit by bit.
+    #[test]
+    fn what_is_closed_has_no_border() {
+        let (origin, up) = ([0.0; 3], [0.0, 0.6, 0.8]);
+        let shapes: [Shape<f64>; 6] = [
+            FixedSphere::solid(origin, 1.5).into(),
+            Cuboid::solid(origin, [1.0, 2.0, 3.0]).into(),
+            Cylinder::solid(origin, up, 0.5, Some(4.0)).into(),
+            Capsule::solid(origin, up, 1.0).into(),
+            Torus::solid(origin, up, 2.0, 0.5).into(),
+            Revolved::solid(origin, up, [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0]]).into(),
+        ];
+        for shape in shapes {
+            let triangles = shape.triangles([Vec3::ZERO; 2], 72);
+            let bits = |corner: Vec3<f64>| (corner + Vec3::ZERO).to_array().map(f64::to_bits);
+            let sides = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+            let sides = sides.map(|ends| ends.map(bits)).filter(|[a, b]| a != b);
+            let sides: std::collections::HashSet<_> = sides.collect();
+            for [a, b] in &sides {
+                assert!(sides.contains(&[*b, *a]), "{shape:?}");
+            }
+        }
     }
 
     #[test]

@@ -102,14 +102,13 @@ impl Item {
         }
     }
 
-    /// Whether it is too small to be seen, where many of its kind make something up.
+    /// Whether it is too short to be seen.
     pub fn is_tiny(&self) -> bool {
         /// Pixels.
         const TINY: f64 = 0.3;
         let [left, top, right, bottom] = self.bounds();
         match self {
-            Self::Sphere { .. } => false,
-            Self::Area { .. } => (right - left).max(bottom - top) < TINY,
+            Self::Sphere { .. } | Self::Area { .. } => false,
             Self::Line { width, .. } => (right - left).max(bottom - top) - width < TINY,
         }
     }

@@ -159,6 +159,8 @@ impl Parts<'_> {
     ) {
         let normals: Vec<Vec3<f64>> = triangles.iter().map(outline::normal).collect();
         let is_two_sided = shape.is_thin() || shape.is_sensor();
+        // Nothing is inside of it that could be looked at.
+        let is_closed = !is_wall(shape) && shape.bounds().is_some();
         for edge in edges(triangles) {
             let own: Vec<&Side> = edge.of.iter().map(|index| &sides[*index]).collect();
             let turns_away = own.iter().any(|side| side.is_front != own[0].is_front);
@@ -166,7 +168,7 @@ impl Parts<'_> {
             if !is_seen {
                 continue;
             }
-            let is_open = own.iter().all(|side| side.is_open);
+            let is_open = !is_closed && own.iter().all(|side| side.is_open);
             let is_hidden = !is_two_sided && own.iter().all(|side| !side.is_front);
             let layer = own.iter().filter_map(|side| side.layer).max();
             let (layer, opacity) = match layer {

@@ -235,20 +235,25 @@ pub fn seen(drawing: &Drawing) -> Vec<bool> {
     let [width, height] = [drawing.width, drawing.height].map(|side| (side * fine).ceil() as usize);
     let mut is_covered = vec![false; width * height];
     let mut seen = vec![true; drawing.items.len()];
+    let mut own = Vec::new();
     for (index, item) in drawing.items.iter().enumerate().rev() {
         if !item.hides() {
             continue;
         }
         let bounds = item.bounds();
-        // What is smaller than some samples hides little, and may lie between them.
+        // What is smaller than some samples hides little, may lie between them, and closes what
+        // is open between others.
         if (bounds[2] - bounds[0]).max(bounds[3] - bounds[1]) * fine < 3.0 {
-            let at = [bounds[0] + bounds[2], bounds[1] + bounds[3]].map(|sum| 0.5 * sum * fine);
-            let is_within = at[0] >= 0.0 && at[1] >= 0.0;
-            let [x, y] = at.map(|place| place as usize);
-            seen[index] = is_within && x < width && y < height && !is_covered[y * width + x];
+            let [x, y] = [bounds[0] + bounds[2], bounds[1] + bounds[3]]
+                .map(|sum| (0.5 * sum * fine).floor() as i64);
+            seen[index] = (0..9).any(|k| {
+                let (x, y) = (x - 1 + k % 3, y - 1 + k / 3);
+                let is_within = (0..width as i64).contains(&x) && (0..height as i64).contains(&y);
+                is_within && !is_covered[y as usize * width + x as usize]
+            });
             continue;
         }
-        let mut is_seen = false;
+        let (mut is_seen, mut has_samples) = (false, false);
         for row in rows_of(bounds, fine, 0, height) {
             let y = (row as f64 + 0.5) / fine;
             let ends = match item {
@@ -260,13 +265,19 @@ pub fn seen(drawing: &Drawing) -> Vec<bool> {
                 Item::Line { .. } => None,
             };
             let Some(ends) = ends else { continue };
-            for column in columns(ends, fine, width) {
-                let covered = &mut is_covered[row * width + column];
-                is_seen |= !*covered;
-                *covered = true;
+            let columns = columns(ends, fine, width);
+            has_samples |= !columns.is_empty();
+            // What is thinner than samples closes what is open beside them.
+            let beside = columns.start.saturating_sub(1)..(columns.end + 1).min(width);
+            for row in row.saturating_sub(1)..(row + 2).min(height) {
+                is_seen |= is_covered[row * width..][beside.clone()].contains(&false);
             }
+            own.push((row, columns));
         }
-        seen[index] = is_seen;
+        for (row, columns) in own.drain(..) {
+            is_covered[row * width..][columns].fill(true);
+        }
+        seen[index] = is_seen || !has_samples;
     }
     seen
 }
