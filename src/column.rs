@@ -64,6 +64,16 @@ impl<T: Real> Column<T> {
         column
     }
 
+    /// Puts values behind the others; what pads a new end is 0.
+    pub(crate) fn extend(&mut self, values: &[T]) {
+        let (own, len) = (self.len, self.len + values.len());
+        let block = T::block(T::ZERO);
+        let blocks = len.next_multiple_of(Self::WIDEST).div_ceil(T::flat(&[block]).len());
+        self.blocks.resize(blocks, block);
+        self.len = len;
+        self[own..].copy_from_slice(values);
+    }
+
     /// The values with the padding behind them.
     ///
     /// ```

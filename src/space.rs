@@ -40,6 +40,7 @@ mod parts;
 mod periodic;
 pub(crate) mod pieces;
 pub(crate) mod rows;
+pub(crate) mod shadow;
 mod sizes;
 mod sphere_tree;
 #[cfg(test)]

@@ -18,33 +18,38 @@ impl<T: Real> Bodies<T> {
         Self { origin, position, velocity, spin, orientation, radius, mass, inertia }
     }
 
-    /// These and, behind them, others.
-    pub(crate) fn with(&self, others: &Self) -> Self {
+    /// Puts others behind these.
+    pub(crate) fn extend(&mut self, others: &Self) {
         let [own, more] = [self.len(), others.len()];
-        let columns = |a: &Columns3<T>, b: &Columns3<T>| {
-            array::from_fn(|axis| column(a[axis].iter().chain(b[axis].iter()).copied()))
-        };
-        let figure = |a: &PerBody<T>, b: &PerBody<T>| {
-            let of = |index: usize| if index < own { a.of(index) } else { b.of(index - own) };
-            PerBody::from_values((0..own + more).map(of), T::ONE)
-        };
-        let is_turned = self.orientation.is_some() || others.orientation.is_some();
-        let orientation = is_turned.then(|| {
+        if self.orientation.is_some() || others.orientation.is_some() {
             let of = |index: usize| match index.checked_sub(own) {
                 None => self.orientation_of(index),
                 Some(index) => others.orientation_of(index),
             };
-            rows((0..own + more).map(of))
-        });
-        Self {
-            origin: self.origin,
-            position: columns(&self.position, &others.position),
-            velocity: columns(&self.velocity, &others.velocity),
-            spin: columns(&self.spin, &others.spin),
-            orientation,
-            radius: figure(&self.radius, &others.radius),
-            mass: figure(&self.mass, &others.mass),
-            inertia: figure(&self.inertia, &others.inertia),
+            self.orientation = Some(rows((0..own + more).map(of)));
+        }
+        for (columns, others) in [
+            (&mut self.position, &others.position),
+            (&mut self.velocity, &others.velocity),
+            (&mut self.spin, &others.spin),
+        ] {
+            columns.iter_mut().zip(others).for_each(|(column, others)| column.extend(others));
+        }
+        for (figure, others) in [
+            (&mut self.radius, &others.radius),
+            (&mut self.mass, &others.mass),
+            (&mut self.inertia, &others.inertia),
+        ] {
+            match (&mut *figure, others) {
+                (PerBody::Same(one), PerBody::Same(other)) if one == other => {}
+                (figure, others) => {
+                    let of = |index: usize| match index.checked_sub(own) {
+                        None => figure.of(index),
+                        Some(index) => others.of(index),
+                    };
+                    *figure = PerBody::from_values((0..own + more).map(of), T::ONE);
+                }
+            }
         }
     }
 
@@ -64,10 +69,14 @@ impl<T: Real> Bodies<T> {
     #[must_use]
     pub fn only(&self, kept: &[usize]) -> Self {
         let columns = |columns: &Columns3<T>| {
-            columns.refs().each(|one| column(kept.iter().map(|&index| one[index])))
+            let only = |one: &Column<T>| {
+                Column::from_values(kept.iter().map(|&index| one[index]), T::ZERO)
+            };
+            columns.refs().each(only)
         };
-        let figure = |figure: &PerBody<T>| {
-            PerBody::from_values(kept.iter().map(|&index| figure.of(index)), T::ONE)
+        let figure = |figure: &PerBody<T>| match figure {
+            PerBody::Same(value) if !kept.is_empty() => PerBody::Same(*value),
+            _ => PerBody::from_values(kept.iter().map(|&index| figure.of(index)), T::ONE),
         };
         let is_turned = self.orientation.is_some();
         Self {
@@ -106,7 +115,8 @@ mod tests {
         let one = one.orientations(&[turned]).build().unwrap();
         let two = Bodies::from_positions(&[[4.0; 3], [5.0; 3]]).radii(&[0.5, 0.25]);
         let two = two.spins(&[[1.0; 3], [2.0; 3]]).build().unwrap();
-        let three = two.with(&one);
+        let mut three = two.clone();
+        three.extend(&one);
         assert_eq!((three.len(), three.radius.of(1), three.radius.of(2)), (3, 0.25, 0.5));
         assert_eq!(three.orientation_of(2).rows(), turned);
         assert_eq!(three.orientation_of(0), Mat3::IDENTITY);

@@ -333,7 +333,7 @@ impl<'a, T: Real> Change<'a, T> {
     /// removed they are less in the world.
     pub fn add(&mut self, bodies: &Bodies<T>) -> Range<usize> {
         let start = self.bodies.len();
-        self.bodies = self.bodies.with(bodies);
+        self.bodies.extend(bodies);
         self.handles.add(bodies.len());
         self.placed.resize(self.bodies.len(), true);
         self.removed.resize(self.bodies.len(), false);

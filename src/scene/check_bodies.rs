@@ -14,6 +14,7 @@ use crate::numbers::array::Each;
 use crate::real::Real;
 use crate::space::PeriodicBox;
 use crate::space::neighbours::{Neighbours, largest, tolerance};
+use crate::space::shadow::Shadow;
 use crate::surroundings::{Feature, FeatureRef, Features, Shape};
 use crate::vec3::Vec3;
 
@@ -43,6 +44,9 @@ pub struct Placed<'a> {
     /// Whether each part was added; empty if none was.
     pub(crate) parts: &'a [bool],
 }
+
+/// Where fewer than one in this many were placed, most of the others are near to none of them.
+const FEW: usize = 8;
 
 /// How far bodies may overlap what they touch, by where they come from.
 struct Allowance<'a> {
@@ -472,5 +476,12 @@ fn overlaps<T: Real>(
             table.insert(body, center(body), radius(body));
         }
     }
-    all.filter(is_left).try_for_each(|body| overlap(&table, body))
+    if placed.len() > bodies.len() / FEW {
+        return all.filter(is_left).try_for_each(|body| overlap(&table, body));
+    }
+    // Most of those that were left are near to nothing that was placed.
+    let reach = greatest + bodies.radius.greatest().to_f64();
+    let shadow = Shadow::of(placed.iter().map(|body| center(*body)), reach, space);
+    let may_touch = |body: &u32| is_left(body) && shadow.covers(center(*body));
+    all.filter(may_touch).try_for_each(|body| overlap(&table, body))
 }

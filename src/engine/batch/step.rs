@@ -28,6 +28,9 @@ use crate::vec3::Vec3;
 /// The collisions of a pack, each with the number of its scene.
 pub type Events<T> = Vec<(usize, Event<T>)>;
 
+/// What a pack's contacts do in a step.
+type Contacts<'a, T> = &'a mut dyn FnMut(&mut Pack<T>, Option<&mut Events<T>>);
+
 /// Takes steps with a pack, with contacts within them if there are `meetings`, and writes the
 /// collisions down where that is asked for.
 pub fn advance<T: Real>(
@@ -55,7 +58,7 @@ fn take_steps<L: Lane<Scalar = T>, T: Real>(
         (true, Integrator::VelocityVerlet) => flight::<L, VelocityVerlet>(is_compensated),
     };
     pack.moving.begin();
-    let mut step = |contacts: &mut dyn FnMut(&mut Pack<T>, Option<&mut Events<T>>)| {
+    let mut step = |contacts: Contacts<'_, T>| {
         for _ in 0..steps {
             fly(pack);
             pack.moving.count_step();

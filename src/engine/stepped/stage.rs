@@ -13,7 +13,7 @@ use super::region::Region;
 use super::setting::Setting;
 use super::state::State;
 use crate::engine::account::Account;
-use crate::engine::{Collisions, EngineError, Event, Execution};
+use crate::engine::{Collisions, EngineError, Execution, Listener};
 use crate::real::Real;
 use crate::scene::Scene;
 use crate::vec3::Vec3;
@@ -72,7 +72,7 @@ impl<T: Real> Stage<T> {
         steps: Steps<T>,
         found: &[Contact<T>],
         fastest: T,
-        on_event: Option<&mut dyn FnMut(&Event<T>)>,
+        on_event: Listener<'_, T>,
     ) -> Collisions {
         let Self { setting, region, clock, account } = self;
         let Steps { taken, exact_dt, dt, gravity } = steps;
