@@ -28,7 +28,9 @@ const STEPS: u32 = 20;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", process::processor());
-    println!("\nms; 1 % of the bodies are removed, and as many added where they were, in one change\n");
+    println!(
+        "\nms; 1 % of the bodies are removed, and as many added where they were, in one change\n"
+    );
     println!("| engine | bodies | a step | a start | 1 % exchanged | 1 % removed | one kicked |");
     println!("|---|--:|--:|--:|--:|--:|--:|");
     for engine in [EngineKind::Stepped, EngineKind::EventDriven] {
