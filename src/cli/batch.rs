@@ -25,7 +25,7 @@ use super::run::totals_at_start;
 use super::scene_argument::scene_file;
 use super::study::refuse_flow;
 use super::study::watch::Teller;
-use super::variation::{blamed, refuse_both, seeds, varied};
+use super::variation::{blamed, refuse_both, seeds, tell_passed_over, varied};
 use draw::Varied;
 use observed::{End, Observed};
 use rows::{Row, Table};
@@ -71,6 +71,7 @@ pub fn batch(arguments: &BatchArguments) -> Result<(), Failure> {
     let planned = Planned { base, arguments: &arguments.scene, varied, seeds, observed, execution };
     let format = Format::of(&arguments.output)?;
     planned.check_first()?;
+    tell_passed_over(&planned.base, "a batch", &[]);
     let opened = OutputFile::open(&arguments.output);
     let mut output = opened.map_err(|source| Failure::Open { option: "--output", source })?;
 

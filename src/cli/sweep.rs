@@ -15,7 +15,9 @@ use super::failure::Failure;
 use super::print;
 use super::scene_argument::scene_file;
 use super::study::watch::Teller;
-use super::variation::{Variation, blamed, choices, count, refuse_both, seeds, varied};
+use super::variation::{
+    Variation, blamed, choices, count, refuse_both, seeds, tell_passed_over, varied,
+};
 use figures::Outcome;
 use tables::{Group, report, write_means, write_runs};
 
@@ -55,6 +57,7 @@ pub fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
             other => other,
         })?;
     }
+    tell_passed_over(&base, "a sweep", &["[[analyse]]"]);
     let planned = files.iter().zip(&seeds).zip(&choices).flat_map(|((file, seeds), choice)| {
         let variations = &variations;
         seeds.iter().map(move |&seed| {

@@ -18,6 +18,17 @@ pub struct Variation {
     pub values: Vec<String>,
 }
 
+/// Says what a scene asks for that many runs side by side do not write.
+pub fn tell_passed_over(file: &SceneFile, by: &str, written: &[&str]) {
+    let mut asked = file.asked_outputs();
+    asked.retain(|table| !written.contains(table));
+    let are = if asked.len() > 1 { "are" } else { "is" };
+    if let Some(last) = asked.pop() {
+        let before = if asked.is_empty() { String::new() } else { asked.join(", ") + " and " };
+        eprintln!("{before}{last} of the scene {are} passed over: {by} writes a row for each run");
+    }
+}
+
 impl Variation {
     /// Reads `KEY=a,b,c` or `KEY=from:to:n`.
     pub fn parse(text: &str) -> Result<Self, Failure> {

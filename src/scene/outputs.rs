@@ -28,6 +28,25 @@ impl SceneFile {
         self.written("record", file.as_deref(), *every)
     }
 
+    /// The tables of the file that ask a run for files, as they are written there.
+    ///
+    /// ```
+    /// use carom::SceneFile;
+    /// let file = SceneFile::parse("gas", "[record]\nfile = \"gas.npz\"\nevery = 0.1\n")?;
+    /// assert_eq!(file.asked_outputs(), ["[record]"]);
+    /// # Ok::<(), carom::SceneError>(())
+    /// ```
+    #[must_use]
+    pub fn asked_outputs(&self) -> Vec<&'static str> {
+        let asked = [
+            ("[record]", self.raw.record.file.is_some()),
+            ("[series]", self.raw.series.file.is_some()),
+            ("[snapshot]", self.raw.snapshot.file.is_some()),
+            ("[[analyse]]", !self.raw.analyse.is_empty()),
+        ];
+        asked.into_iter().filter(|(_, is_asked)| *is_asked).map(|(table, _)| table).collect()
+    }
+
     /// A path in the folder of the scene file.
     ///
     /// ```
