@@ -29,6 +29,7 @@ impl Histogram {
         let (first, width, count) = match bins {
             Some(bins) => (least, range / f64::from(bins), f64::from(bins)),
             None if are_whole && range < MOST_WHOLE => (least - 0.5, 1.0, range + 1.0),
+            None if range == 0.0 => (least, 0.0, 1.0),
             None => {
                 let quartile = |part: usize| values[part * (values.len() - 1) / 4];
                 let wanted = 2.0 * (quartile(3) - quartile(1)) / (values.len() as f64).cbrt();
