@@ -2,7 +2,7 @@
 # Makes the pictures of docs/batches.md: 100,000 breaks of a rack, whose cue ball is aimed at
 # random, and how often what comes of them.
 #
-#   docs/studies/breaks.sh             # a minute on two cores, after the build
+#   docs/studies/breaks.sh             # half a minute on two cores, after the build
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
