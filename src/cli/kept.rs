@@ -96,13 +96,7 @@ impl Keeping {
                     .to_owned(),
             ));
         };
-        let refused = |source| Failure::Open { option: "--snapshot", source };
-        let Destination::Regular(path) = Destination::of(&path).map_err(refused)? else {
-            return Err(Failure::Argument(format!(
-                "--snapshot is {}, no file that can be replaced",
-                path.display()
-            )));
-        };
+        let path = Destination::replaceable("--snapshot", &path)?;
         let wall = wall.and_then(|minutes| Duration::try_from_secs_f64(60.0 * minutes).ok());
         Ok(Some(Self { path, every, wall }))
     }

@@ -9,6 +9,8 @@ use carom::output::WholeFile;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::failure::Failure;
+
 /// A file that cannot be written.
 #[derive(Debug, Error)]
 pub enum OutputError {
@@ -53,6 +55,20 @@ pub enum Destination {
 const MOST_LINKS: usize = 40;
 
 impl Destination {
+    /// The regular file that an option names, which is replaced as a whole.
+    ///
+    /// # Errors
+    /// If no file can be at the path, or a device or a pipe is.
+    pub fn replaceable(option: &'static str, path: &Path) -> Result<PathBuf, Failure> {
+        match Self::of(path).map_err(|source| Failure::Open { option, source })? {
+            Self::Regular(target) => Ok(target),
+            Self::StandardOutput | Self::Special(_) => Err(Failure::Argument(format!(
+                "{option} is {}, no file that can be replaced",
+                path.display()
+            ))),
+        }
+    }
+
     /// Follows a path. `-` is the standard output.
     ///
     /// # Errors

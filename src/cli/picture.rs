@@ -46,10 +46,10 @@ pub fn picture(arguments: &PictureArguments) -> Result<(), Failure> {
     let format = Format::of(&output).ok_or_else(|| {
         Failure::Argument(format!("-o is {shown}; its ending must be .svg, .png or .pdf"))
     })?;
-    let refused = |source| Failure::Open { option: "-o", source };
-    let unfit = |reason: String| refused(OutputError::Path { path: output.clone(), reason });
-    let Destination::Regular(target) = Destination::of(&output).map_err(refused)? else {
-        return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
+    let target = Destination::replaceable("-o", &output)?;
+    let unfit = |reason: String| {
+        let source = OutputError::Path { path: output.clone(), reason };
+        Failure::Open { option: "-o", source }
     };
     if !format.is_built() {
         return Err(unfit(pdf_of("").err().unwrap_or_default()));

@@ -68,9 +68,7 @@ fn write(
         Failure::Argument(format!("-o is {shown}; its ending must be .svg, .png or .pdf"))
     })?;
     let refused = |source| Failure::Open { option: "-o", source };
-    let Destination::Regular(target) = Destination::of(output).map_err(refused)? else {
-        return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
-    };
+    let target = Destination::replaceable("-o", output)?;
     let columns = read(path)?;
     let title = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into());
     let picture = Picture { charts: charts(&title, columns)? };

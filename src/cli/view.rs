@@ -28,10 +28,7 @@ pub fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     if output.extension().is_none_or(|ending| ending != "html") {
         return Err(Failure::Argument(format!("-o is {shown}; its ending must be .html")));
     }
-    let refused = |source| Failure::Open { option: "-o", source };
-    let Destination::Regular(target) = Destination::of(&output).map_err(refused)? else {
-        return Err(Failure::Argument(format!("-o is {shown}, no file that can be replaced")));
-    };
+    let target = Destination::replaceable("-o", &output)?;
     standard_output()?;
     let most = arguments.limit * 1_000_000;
     let mut film = Film::new(most);

@@ -5,6 +5,7 @@
 //! the scene's order (`impact`, `apply`): those at the end of the step round by
 //! round (`resolve`), those inside it one after the other (`in_order`).
 
+mod among_all;
 mod apply;
 mod candidates;
 mod clock;

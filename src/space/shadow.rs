@@ -1,4 +1,4 @@
-//! Shadow: where a sphere can be that touches one of a few, told at one look.
+//! Shadow: where a sphere can be that touches one of a few, seen at one look.
 
 use core::ops::RangeInclusive;
 

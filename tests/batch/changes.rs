@@ -237,3 +237,24 @@ fn copies_are_checked_as_scenes_are() {
     assert!(overlapping.contains("overlap"), "{overlapping}");
     assert!(Batch::varied(&first, 0, ALONE, |_, _| {}).is_err());
 }
+
+#[test]
+fn a_first_scene_without_a_step_changes_no_other() {
+    let scene = |k: usize| {
+        let mut scene = Scene::<f64>::builder()
+            .sphere(Sphere::new([0.0; 3]).radius(0.5).velocity([1.0, 0.0, 0.0]))
+            .sphere(Sphere::new([2.1, 0.0, 0.0]).radius(0.5))
+            .build()
+            .unwrap();
+        scene.engine = EngineKind::Stepped;
+        scene.stepped.dt = (k > 0).then_some(0.25);
+        scene
+    };
+    let mut batch = Batch::made(2, ALONE, |k| Ok(scene(k))).unwrap();
+    assert!(matches!(batch.fault(0), Some(Fault::Engine(_))));
+    batch.advance_steps(8).unwrap();
+    let World::Stepped(mut alone) = World::new(scene(1), ALONE).unwrap() else { unreachable!() };
+    alone.advance_steps(8);
+    assert_eq!(alone.collisions().pairs, 1);
+    assert_eq!(batch.bodies(1).unwrap(), alone.bodies());
+}

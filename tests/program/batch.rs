@@ -107,8 +107,8 @@ fn what_a_batch_does_not_write_is_told() {
     );
     assert_eq!(folder.names(), ["b.csv", "scene.toml"]);
     let said = folder.says("sweep scene.toml --seeds 2 --output s");
-    let told = "[record] of the scene is passed over: a sweep writes a row for each run\n";
-    assert_eq!((said.status, said.errors.as_str()), (Some(0), told));
+    let passed_over = "[record] of the scene is passed over: a sweep writes a row for each run\n";
+    assert_eq!((said.status, said.errors.as_str()), (Some(0), passed_over));
 }
 
 #[test]

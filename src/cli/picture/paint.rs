@@ -94,7 +94,7 @@ impl Paint {
         self.colors[index]
     }
 
-    /// Whether there is something to be told.
+    /// Whether colours differ in what they mean.
     pub fn has_legend(&self) -> bool {
         match &self.meaning {
             Meaning::Species(named) => named.len() > 1,

@@ -7,7 +7,7 @@ use carom::output::quaternion_of;
 
 use crate::cli::shown::{Bounds, Moment, Scenery, around, joined};
 
-/// The most species that are told apart.
+/// The most species that have a colour each.
 const MOST_KINDS: usize = 64;
 
 /// The greatest whole number of two bytes, which stands for 1.
@@ -61,7 +61,7 @@ pub struct TooLarge {
 }
 
 impl Film {
-    /// One that takes so many bytes of a page.
+    /// One whose data take up to this many bytes of a page.
     pub fn new(most_bytes: u64) -> Self {
         Self {
             frames: Vec::new(),
@@ -78,7 +78,7 @@ impl Film {
         }
     }
 
-    /// Keeps no more than so many frames, if that is said.
+    /// Keeps no more frames than this, if there is a bound.
     pub fn keep_at_most(&mut self, frames: Option<u64>) {
         self.most_frames = frames.map_or(u64::MAX, |frames| frames.saturating_add(1));
     }
@@ -178,7 +178,7 @@ impl Film {
             return Err(TooLarge { bytes });
         }
         if self.kinds.len() >= MOST_KINDS {
-            // As many are not told apart by colours.
+            // There are no colours for as many.
             self.frames.iter_mut().for_each(|frame| frame.kinds.fill(0));
         }
         Ok(self)

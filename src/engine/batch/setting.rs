@@ -4,7 +4,7 @@ use super::within::Meetings;
 use crate::engine::frame::Frame;
 use crate::engine::plan::{Plan, Turning, has_field, summation};
 use crate::engine::stepped::in_lanes;
-use crate::engine::{Execution, Lanes};
+use crate::engine::{EngineError, Execution, Lanes};
 use crate::lane::Lane;
 use crate::real::Real;
 use crate::scene::{EngineKind, Impact, OrientationUpdate, Scene};
@@ -43,15 +43,15 @@ impl<T: Real> Setting<T> {
 
     /// What each worker needs for contacts that take effect within a step; `None` where they do
     /// at its end, or where there is nothing to touch. `first` has the shape of all scenes.
-    pub fn meetings(&self, first: &Scene<T>) -> Option<Meetings<T>> {
+    pub fn meetings(&self, first: &Scene<T>) -> Result<Option<Meetings<T>>, EngineError> {
         let has_contacts = self.plan.has_pairs || !self.features.is_empty();
         let is_within = self.plan.impact == Impact::SubStep && has_contacts && self.has_lanes();
-        is_within.then(|| Meetings::new(first, self.width).ok()).flatten()
+        is_within.then(|| Meetings::new(first, self.width)).transpose()
     }
 
     /// Whether any scene of this shape is in a lane.
     pub fn has_lanes(&self) -> bool {
-        self.plan.alone_in_batch().is_none()
+        self.plan.alone_in_batch().is_none() && self.first.stepped.dt.is_some()
     }
 
     /// Whether a scene can be in a lane; if not, it runs alone.

@@ -34,7 +34,8 @@ pub fn start<T: Compiled>(
     let workers = Workers::new(execution.threads).map_err(EngineError::from)?;
     let setting = Setting::new(first, execution, workers.threads());
     let width = setting.width;
-    let meetings = (0..workers.threads()).map(|_| setting.meetings(first)).collect();
+    let meetings = (0..workers.threads()).map(|_| setting.meetings(first));
+    let meetings = meetings.collect::<Result<_, _>>()?;
     let mut portions: Vec<_> =
         (0..count).step_by(width).map(|start| (start..count.min(start + width), None)).collect();
     workers.each(&mut portions, |(scenes, portion)| {

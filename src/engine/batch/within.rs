@@ -58,12 +58,10 @@ pub(super) fn contacts<L: Lane<Scalar = T>, T: Real>(
     for (lane, found) in found.iter_mut().enumerate().filter(|(_, found)| !found.is_empty()) {
         enter::<L, T>(setting, pack, lane, stage.state(), events.is_some());
         let moving = &mut pack.moving;
-        let seat = &mut moving.seats[lane];
-        let (exact_dt, dt) = (seat.exact_dt, moving.dt[lane]);
+        let (exact_dt, scene) = (moving.seats[lane].exact_dt, moving.seats[lane].scene);
         let gravity = pack.gravity.refs().each(|column| column[lane]).into();
-        let steps = Steps { taken: moving.steps(lane), exact_dt, dt, gravity };
+        let steps = Steps { taken: moving.steps(lane), exact_dt, dt: moving.dt[lane], gravity };
         let fastest = fastest.as_ref()[lane];
-        let scene = moving.seats[lane].scene;
         let collided = match (&mut events, scene) {
             (Some(events), Some(scene)) => {
                 let mut on_event = |event: &Event<T>| events.push((scene, *event));

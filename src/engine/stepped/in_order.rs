@@ -14,6 +14,7 @@
 //! In rounds of all contacts that are first for their bodies, one in 3,000 came too
 //! late at 0.13 diameters a step, as its body should have met a third one before.
 
+use super::among_all::touching_any;
 use super::apply::apply;
 use super::candidates::renew;
 use super::clock::Clock;
@@ -21,7 +22,7 @@ use super::contacts::Contact;
 use super::find::{find, search_chunk};
 use super::impact::Outcome;
 use super::lanes::in_lanes;
-use super::narrow::{WithinStep, touching_any};
+use super::narrow::WithinStep;
 use super::neighbourhoods::Neighbour;
 use super::path::Stretch;
 use super::queue::Due;
